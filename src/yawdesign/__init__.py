@@ -1,0 +1,1 @@
+"""Yaw damper design for motor bogies."""

@@ -1,0 +1,95 @@
+"""Eigenvalues of the bogie, and the margins that are read from them."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from yawdesign.bogie.assembly import StateSpace, folded, physical
+from yawdesign.bogie.characteristic import DAMPER_FACTOR, Characteristic, characteristic
+from yawdesign.bogie.elements import Link, Mass, Single, WheelRailContact
+from yawdesign.bogie.polynomials import Number, Polynomial, evaluate
+from yawdesign.bogie.vehicles import Parameters, bogie
+
+Complex = NDArray[np.complex128]
+Float = NDArray[np.float64]
+
+
+def state_matrix(p: Parameters, C_s: Number, *, kind: str = "power", equations: str = "reciprocal") -> Float:
+    """Return the state matrix of the 25-state model (15 states without motors).
+
+    Parameters
+    ----------
+    p : mapping
+        Symbols of Table I in SI units and ``v``; numbers or arrays that broadcast against each other.
+    C_s : float or array
+        Damping of the pair of yaw dampers [N s/m].
+    kind, equations : str
+        As in `yawdesign.bogie.vehicles.bogie`.
+
+    Returns
+    -------
+    ndarray, shape (..., n, n)
+    """
+    return _dense(physical(bogie({**p, "C_s": C_s}, kind=kind, equations=equations)))
+
+
+def core_matrix(p: Parameters, C_s: Number, *, kind: str = "power", equations: str = "reciprocal") -> Float:
+    """Return the state matrix of the coupled motion alone, in half sums and half differences of both ends.
+
+    Its eigenvalues are the roots of `Characteristic.core`. Arguments as in `state_matrix`.
+    """
+    elements = folded(bogie({**p, "C_s": C_s}, kind=kind, equations=equations))
+    decoupled = {"phi_m-"} | ({"phi_m+"} if equations == "as-printed" else set())
+    return _dense([e for e in elements if not _acts_within(e, decoupled)])
+
+
+def _acts_within(element: Single, coordinates: set[str]) -> bool:
+    match element:
+        case Mass():
+            return element.coordinate in coordinates
+        case Link():
+            return set(element.force) <= coordinates
+        case WheelRailContact():
+            return element.y in coordinates
+
+
+def _dense(elements: Sequence[Single]) -> Float:
+    system = StateSpace(elements)
+    shape = np.broadcast_shapes(*(np.shape(value) for value in system.entries.values()))
+    return np.asarray(system.fill(np.zeros((*shape, system.size, system.size))))
+
+
+def eigenvalues(matrix: Float) -> Complex:
+    """Return the eigenvalues of one matrix [1/s], the least damped first, conjugates together."""
+    values = np.linalg.eigvals(matrix)
+    return np.asarray(sorted(values, key=lambda s: (-s.real, abs(s.imag), -s.imag)), dtype=complex)
+
+
+def roots(p: Polynomial) -> Complex:
+    """Return the roots of a real polynomial, lowest power first [1/s]."""
+    down = np.trim_zeros(np.array(p[::-1], dtype=float), "f")
+    unit = (abs(down[-1] / down[0])) ** (1 / max(len(down) - 1, 1)) or 1.0
+    return np.asarray(np.roots(down / down[0] / unit ** np.arange(len(down))) * unit)
+
+
+def decay_rate(s: Complex) -> Float:
+    """Return minus the largest real part [1/s] over the last axis."""
+    return np.asarray(-np.max(s.real, axis=-1))
+
+
+def damping_ratio(s: Complex) -> Float:
+    """Return the least -Re(s)/|s| over the last axis; a stable real root counts as 1."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.min(np.where(s == 0, 0.0, -s.real / np.abs(s)), axis=-1))
+
+
+MARGINS = {"decay_rate": decay_rate, "damping_ratio": damping_ratio}
+
+
+def backward_error(p: Polynomial, s: Complex) -> Float:
+    """Return |p(s)| / sum |a_k| |s|^k: how far s is from being an exact root, relative to the coefficients."""
+    magnitude = evaluate(tuple(np.abs(a) for a in p), np.abs(s))
+    return np.asarray(np.abs(evaluate(p, s)) / magnitude)

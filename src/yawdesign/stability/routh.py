@@ -1,0 +1,109 @@
+"""Routh's scheme: are all roots of a polynomial in the left half-plane, left of a line, or inside a sector?
+
+No determinant is ever formed. The scheme divides only by its own leading entries, so it runs on floats, arrays (many
+bogies at once), CasADi SX and rationals. A zero leading entry makes what follows NaN or infinite: not a verdict, and
+`is_stable` then answers False; whoever needs certainty near the boundary asks the eigenvalues.
+"""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from yawdesign.bogie.polynomials import Number, Polynomial, plus, scale_variable, shift, times
+
+TIME_UNIT = 100.0  # rad/s; in this unit a bogie's coefficients span ten powers of ten instead of 46
+
+
+def _remainder(upper: Sequence[Number], lower: Sequence[Number]) -> list[Number]:
+    """Return quotient * lower - upper, where the linear quotient cancels the two highest powers (highest first)."""
+    alpha = upper[0] / lower[0]
+    beta = _divide(plus(upper[1], times(-1, times(alpha, lower[1] if len(lower) > 1 else 0))), lower[0])
+    out = []
+    for k in range(2, len(upper)):
+        linear = times(alpha, lower[k]) if k < len(lower) else 0
+        out.append(plus(plus(linear, times(beta, lower[k - 1])), times(-1, upper[k])))
+    return out
+
+
+def _divide(x: Number, y: Number) -> Number:
+    return 0 if type(x) is int and x == 0 else x / y
+
+
+def _chain(upper: list[Number], lower: list[Number]) -> list[Number]:
+    """Return the leading coefficients of the Sturm chain that begins with two polynomials (highest power first)."""
+    column = [upper[0]]
+    while lower:
+        column.append(lower[0])
+        upper, lower = lower, _remainder(upper, lower)
+    return column
+
+
+def routh_column(p: Polynomial) -> list[Number]:
+    """Return the first column of Routh's array of a real polynomial.
+
+    Parameters
+    ----------
+    p : tuple
+        Coefficients, lowest power first.
+
+    Returns
+    -------
+    list
+        As many entries as p has. All roots have negative real parts exactly if all entries have the same sign.
+
+    Examples
+    --------
+    >>> routh_column((6.0, 11.0, 6.0, 1.0))
+    [1.0, 6.0, 10.0, 6.0]
+    """
+    down = p[::-1]
+    # p(j w) / j^n = U(w) - j V(w); only every second coefficient of U and of V is there.
+    signed = [times((1, 1, -1, -1)[k % 4], a) for k, a in enumerate(down)]
+    upper = [a if k % 2 == 0 else 0 for k, a in enumerate(signed)]
+    lower = [a if k % 2 == 1 else 0 for k, a in enumerate(signed)][1:]
+    return _chain(upper, lower)
+
+
+def sector_column(p: Polynomial, zeta: float) -> list[Number]:
+    """Return a chain that is positive exactly if every root of p has a damping ratio above zeta.
+
+    The polynomial is turned by asin(zeta), which brings the sector's edge onto the imaginary axis; since roots come in
+    conjugate pairs one edge suffices. The chain is Routh's for complex coefficients.
+
+    Parameters
+    ----------
+    p : tuple
+        Real coefficients, lowest power first, the last one positive.
+    zeta : float
+        Damping ratio, 0 <= zeta < 1 (a sector wider than the half-plane has no edge of this kind).
+    """
+    angle = math.asin(zeta)
+    upper, lower = [], []
+    for k, a in enumerate(p[::-1]):
+        # Coefficient of z^(n-k) in p(z e^(j angle)), divided by that of z^n, times j^-k.
+        turn = complex(math.cos(k * angle), -math.sin(k * angle)) * (1, -1j, -1, 1j)[k % 4]
+        upper.append(times(turn.real, a) if k else a)
+        lower.append(times(-turn.imag, a))
+    return _chain(upper, lower[1:])
+
+
+def is_stable(column: Sequence[Number]) -> NDArray[np.bool_]:
+    """Return where all entries of a Routh column of numbers or arrays are positive."""
+    verdict = np.asarray(column[0] > 0)
+    for entry in column[1:]:
+        verdict = verdict & (entry > 0)
+    return verdict
+
+
+def decays_faster(p: Polynomial, sigma: Number) -> NDArray[np.bool_]:
+    """Return where all roots of p (numbers or arrays) have a decay rate above sigma [1/s]."""
+    with np.errstate(all="ignore"):
+        return is_stable(routh_column(shift(scale_variable(p, TIME_UNIT), -sigma / TIME_UNIT)))
+
+
+def damped_more(p: Polynomial, zeta: float) -> NDArray[np.bool_]:
+    """Return where all roots of p (numbers or arrays) have a damping ratio above zeta."""
+    with np.errstate(all="ignore"):
+        return is_stable(sector_column(scale_variable(p, TIME_UNIT), zeta))
