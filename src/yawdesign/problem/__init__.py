@@ -1,0 +1,38 @@
+"""What was written: units, the table of parameters, problem files, and the problem they describe."""
+
+from .diagnostics import Diagnostic, ProblemError
+from .model import Problem
+from .parameters import PARAMETERS, Bogie
+from .presets import table1
+from .quantities import format_quantity, parse_quantity, to_unit
+from .reader import load, loads, read
+from .running import Curve, SpeedRange
+from .schema import schema
+from .starter import starter
+from .table import Parameter
+from .variables import Design, Variable
+from .written import Written, exact
+
+__all__ = [
+    "PARAMETERS",
+    "Bogie",
+    "Curve",
+    "Design",
+    "Diagnostic",
+    "Parameter",
+    "Problem",
+    "ProblemError",
+    "SpeedRange",
+    "Variable",
+    "Written",
+    "exact",
+    "format_quantity",
+    "load",
+    "loads",
+    "parse_quantity",
+    "read",
+    "schema",
+    "starter",
+    "table1",
+    "to_unit",
+]

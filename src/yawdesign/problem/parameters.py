@@ -1,0 +1,260 @@
+"""The bogie: one field for every symbol of Table I, and with it the one table of parameters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from .diagnostics import Diagnostic, Mistakes, ProblemError
+from .table import as_choice, check_fields, documented, field_name, parameter, table
+
+Kind = Literal["power", "trailer"]
+KINDS: tuple[str, ...] = get_args(Kind)
+
+# Hard ranges leave room for limit studies (rigid joints, a bogie frame that stands still).
+_MASS = (1e-3, 1e18)
+_STIFFNESS = (0.0, 1e18)
+_JOINT = (1.0, 1e18)  # a joint without stiffness would be a damper that is not there
+_DAMPING = (0.0, 1e12)
+_LENGTH = (1e-3, 100.0)
+_OFFSET = (0.0, 100.0)
+_CREEP = (1.0, 1e15)
+
+
+@documented
+@dataclass(frozen=True, kw_only=True)
+class Bogie:
+    """A bogie with two wheelsets and, if it is a power bogie, two motors hung on its frame.
+
+    Values are numbers in SI or texts with a unit, such as ``"626.48 kN/m"``; the fields hold SI numbers that remember
+    the decimal as it was written. The motor's parameters are None in a trailer bogie. `C_s` may be left out.
+
+    Parameters
+    ----------
+    kind : {"power", "trailer"}
+        With or without motors.
+    """
+
+    kind: Kind = "power"
+    M_b: float = parameter(
+        r"M_\mathrm{b}", "kg", "mass of the bogie frame", hard=_MASS, usual=(1e3, 20e3), source="7 186"
+    )
+    J_b: float = parameter(
+        r"J_\mathrm{b}", "kg·m²", "yaw inertia of the bogie frame", hard=_MASS, usual=(500, 50e3), source="9 751"
+    )
+    M_w: float = parameter(r"M_\mathrm{w}", "kg", "mass of each wheelset", hard=_MASS, usual=(500, 6e3), source="3 085")
+    J_w: float = parameter(
+        r"J_\mathrm{w}", "kg·m²", "yaw inertia of each wheelset", hard=_MASS, usual=(200, 5e3), source="2 024"
+    )
+    M_m: float | None = parameter(
+        r"M_\mathrm{m}", "kg", "mass of each motor", hard=_MASS, usual=(100, 6e3), source="1 765", motor=True
+    )
+    J_m: float | None = parameter(
+        r"J_\mathrm{m}", "kg·m²", "yaw inertia of each motor", hard=_MASS, usual=(5, 5e3), source="1 019", motor=True
+    )
+    W: float = parameter("W", "N", "axle load", hard=(0.0, 1e9), usual=(20e3, 500e3), source="200 000")
+    K_1x: float = parameter(
+        r"K_{1x}",
+        "MN/m",
+        "longitudinal stiffness of the primary suspension of each wheelset",
+        hard=_STIFFNESS,
+        usual=(1e6, 500e6),
+        source="40",
+    )
+    K_1y: float = parameter(
+        r"K_{1y}",
+        "MN/m",
+        "lateral stiffness of the primary suspension of each wheelset",
+        hard=_STIFFNESS,
+        usual=(0.2e6, 200e6),
+        source="6",
+    )
+    K_2x: float = parameter(
+        r"K_{2x}",
+        "MN/m",
+        "longitudinal stiffness of the secondary suspension of the bogie",
+        hard=_STIFFNESS,
+        usual=(10e3, 20e6),
+        source="0.8",
+    )
+    K_2y: float = parameter(
+        r"K_{2y}",
+        "MN/m",
+        "lateral stiffness of the secondary suspension of the bogie",
+        hard=_STIFFNESS,
+        usual=(10e3, 20e6),
+        source="0.8",
+    )
+    K_m: float | None = parameter(
+        r"K_\mathrm{m}",
+        "kN/m",
+        "lateral stiffness of the suspension of each motor",
+        hard=_STIFFNESS,
+        usual=(10e3, 100e6),
+        source="626.48",
+        motor=True,
+    )
+    K_mphi: float | None = parameter(
+        r"K_{\mathrm{m}\varphi}",
+        "kN·m/rad",
+        "yaw stiffness of the suspension of each motor",
+        hard=_STIFFNESS,
+        usual=(1e3, 1e9),
+        source="361.69",
+        motor=True,
+    )
+    K_ds: float = parameter(
+        r"K_\mathrm{ds}",
+        "MN/m",
+        "stiffness of each joint of a yaw damper",
+        hard=_JOINT,
+        usual=(0.5e6, 500e6),
+        source="40",
+    )
+    K_dt: float = parameter(
+        r"K_\mathrm{dt}",
+        "MN/m",
+        "stiffness of each joint of a secondary lateral damper",
+        hard=_JOINT,
+        usual=(0.5e6, 500e6),
+        source="40",
+    )
+    K_dm: float | None = parameter(
+        r"K_\mathrm{dm}",
+        "MN/m",
+        "stiffness of each joint of a motor lateral damper",
+        hard=_JOINT,
+        usual=(0.5e6, 500e6),
+        source="40",
+        motor=True,
+    )
+    C_t: float = parameter(
+        r"C_\mathrm{t}",
+        "kN·s/m",
+        "damping of the pair of secondary lateral dampers",
+        hard=_DAMPING,
+        usual=(1e3, 1e6),
+        source="60",
+    )
+    C_s: float | None = parameter(
+        r"C_\mathrm{s}",
+        "kN·s/m",
+        "damping of the pair of yaw dampers",
+        hard=_DAMPING,
+        usual=(10e3, 20e6),
+        source="1 000",
+        optional=True,
+    )
+    C_mphi: float | None = parameter(
+        r"C_{\mathrm{m}\varphi}",
+        "kN·s·m/rad",
+        "yaw damping of the suspension of each motor",
+        hard=_DAMPING,
+        usual=(10, 1e6),
+        source="11.52",
+        motor=True,
+    )
+    C_m: float | None = parameter(
+        r"C_\mathrm{m}",
+        "kN·s/m",
+        "damping of one motor lateral damper",
+        hard=_DAMPING,
+        usual=(100, 1e6),
+        source="19.95",
+        motor=True,
+    )
+    a: float = parameter("a", "m", "half the wheelbase", hard=_LENGTH, usual=(0.6, 2.5), source="1.25")
+    b: float = parameter(
+        "b",
+        "m",
+        "half the lateral distance of the contact points of a wheelset",
+        hard=_LENGTH,
+        usual=(0.4, 1.0),
+        source="0.746 5",
+    )
+    a_0: float | None = parameter(
+        "a_0",
+        "m",
+        "longitudinal distance of each motor from the centre of the frame",
+        hard=_OFFSET,
+        usual=(0.1, 2.5),
+        source="0.75",
+        motor=True,
+    )
+    b_0: float = parameter(
+        "b_0",
+        "m",
+        "half the longitudinal distance of the secondary lateral dampers",
+        hard=_OFFSET,
+        usual=(0.0, 2.0),
+        source="0.3",
+    )
+    b_1: float = parameter(
+        "b_1", "m", "half the lateral distance of the primary springs", hard=_OFFSET, usual=(0.4, 1.6), source="1.1"
+    )
+    b_2: float = parameter(
+        "b_2", "m", "half the lateral distance of the secondary springs", hard=_OFFSET, usual=(0.4, 1.6), source="1.1"
+    )
+    b_3: float = parameter(
+        "b_3", "m", "half the lateral distance of the yaw dampers", hard=_LENGTH, usual=(0.5, 1.7), source="1.2"
+    )
+    r: float = parameter("r", "m", "rolling radius of the wheels", hard=_LENGTH, usual=(0.25, 0.7), source="0.625")
+    lambda_: float = parameter(
+        r"\lambda", "-", "equivalent conicity of the wheelsets", hard=(0.0, 10.0), usual=(0.005, 0.6), source="0.15"
+    )
+    f_11: float = parameter(
+        r"f_{11}", "kN", "lateral creep coefficient of each wheel", hard=_CREEP, usual=(0.5e6, 50e6), source="11 511"
+    )
+    f_22: float = parameter(
+        r"f_{22}",
+        "kN",
+        "longitudinal creep coefficient of each wheel",
+        hard=_CREEP,
+        usual=(0.5e6, 50e6),
+        source="11 511",
+    )
+
+    def __post_init__(self) -> None:
+        mistakes = Mistakes()
+        with mistakes.under("bogie"):
+            check_fields(self)
+        with mistakes.under("bogie.kind"):
+            as_choice(self.kind, KINDS)
+            mistakes.found.extend(self._misplaced())
+        mistakes.report()
+
+    def _misplaced(self) -> list[Diagnostic]:
+        """Return what is wrong with the motor's values: all are needed, or none is allowed."""
+        given = {key for key in MOTOR_KEYS if getattr(self, key) is not None}
+        wrong = given if self.kind == "trailer" else set(MOTOR_KEYS) - given
+        text = NO_MOTOR if self.kind == "trailer" else "is missing: a power bogie needs it"
+        return [Diagnostic(key=f"bogie.{key}", message=text) for key in MOTOR_KEYS if key in wrong]
+
+    def parameters(self) -> dict[str, float]:
+        """Return the values in SI by key (``lambda``, not ``lambda_``), without those that are None.
+
+        Returns
+        -------
+        dict of str to float
+            In the order of Table I.
+        """
+        values = {key: getattr(self, field_name(key)) for key in PARAMETERS}
+        return {key: value for key, value in values.items() if value is not None}
+
+
+NO_MOTOR = "belongs to the motors, and a trailer bogie has none: remove it, or choose kind: power"
+PARAMETERS = table(Bogie)
+MOTOR_KEYS: tuple[str, ...] = tuple(key for key, row in PARAMETERS.items() if row.motor)
+
+
+def parameter_keys(kind: str) -> tuple[str, ...]:
+    """Return the keys that a bogie of this kind has, in the order of Table I."""
+    return tuple(key for key in PARAMETERS if kind != "trailer" or key not in MOTOR_KEYS)
+
+
+def find_parameter(key: str) -> str:
+    """Return the file key of a parameter, given by its file key or its Python name."""
+    key = "lambda" if key == "lambda_" else key
+    if key not in PARAMETERS:
+        raise ProblemError(f"{key} is not a parameter")
+    return key

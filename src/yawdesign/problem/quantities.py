@@ -1,0 +1,146 @@
+"""Quantities: texts such as ``626.48 kN/m`` into exact SI numbers, and back."""
+
+from __future__ import annotations
+
+import math
+import re
+from fractions import Fraction
+
+from .units import UnitError, kind_of, parse_unit, shortened
+from .written import Written, exact
+
+_GAP = r"[ _\u2009\u202f\u00a0]"
+_NUMBER = re.compile(
+    rf"""\s*(?P<number>[+\-\u2212]?
+         (?:(?P<whole>[0-9]{{1,3}}(?:{_GAP}[0-9]{{3}})+(?![0-9])|[0-9]+)
+            (?:\.(?P<part>(?:[0-9]{{3}}{_GAP})*(?!1\s*/)[0-9]{{1,3}}(?![0-9])|[0-9]*))?
+          |\.(?P<bare>[0-9]+))
+         (?:[eE][+-]?[0-9]+)?)""",
+    re.VERBOSE,
+)
+_MOST_DIGITS, _MOST_TENS, _LONGEST_TEXT = 60, 400, 200
+
+
+def split_quantity(text: str) -> tuple[Fraction, str]:
+    """Split a text into its number and its unit, which may be empty.
+
+    Examples
+    --------
+    >>> split_quantity("1 046 770 N s/m")
+    (Fraction(1046770, 1), 'N s/m')
+    """
+    match = _NUMBER.match(text[:_LONGEST_TEXT])
+    if match is None:
+        raise UnitError(f"{shortened(text.strip())!r} is not a number with a unit, such as 626.48 kN/m")
+    _check_number(text, match)
+    digits = re.sub(_GAP, "", match["number"]).replace("\u2212", "-")
+    return Fraction(digits), text[match.end() :].strip()
+
+
+def _check_number(text: str, match: re.Match[str]) -> None:
+    rest = text[match.end() :]
+    if len(text) > _LONGEST_TEXT or sum(char.isdigit() for char in match["number"]) > _MOST_DIGITS:
+        raise UnitError(f"{shortened(text)} is too long for a number with a unit")
+    if rest.startswith(","):
+        raise UnitError(f"{shortened(text)} has a comma: write the decimal point as '.', group digits with blanks")
+    if re.match(rf"{_GAP}?[0-9.](?!\s*/)", rest):
+        raise UnitError(f"{shortened(text)} is not one number: digits are grouped in threes, as in 1 046 770.5")
+    exponent = re.search(r"[eE]([+-]?[0-9]+)$", match["number"])
+    if exponent and abs(int(exponent[1])) > _MOST_TENS:
+        raise UnitError(f"{shortened(text)} is too large or too small to compute with")
+
+
+def parse_quantity(text: str, unit: str | None = None) -> Written:
+    """Convert a text with a unit into its SI number.
+
+    Parameters
+    ----------
+    text : str
+        A number and a unit, such as ``"626.48 kN/m"``; a number alone is SI.
+    unit : str, optional
+        Any unit of the expected dimension. Without it every dimension is right.
+
+    Returns
+    -------
+    Written
+        The value in SI.
+
+    Raises
+    ------
+    ProblemError
+        If the text is no quantity or has another dimension.
+
+    Examples
+    --------
+    >>> parse_quantity("300 km/h", "m/s"), parse_quantity("300 km/h").exact
+    (83.33333333333333, Fraction(250, 3))
+    """
+    number, written_unit = split_quantity(text)
+    size = parse_unit(written_unit) if written_unit else parse_unit(unit or "")
+    if unit is not None and size.dimension != parse_unit(unit).dimension:
+        raise UnitError(f"{shortened(text)} is {kind_of(written_unit)}, expected {kind_of(unit)} such as {unit}")
+    return _in_doubles(number * (size.factor if written_unit else 1), text)
+
+
+def _in_doubles(value: Fraction, text: str) -> Written:
+    try:
+        written = Written(value)
+    except OverflowError:
+        raise UnitError(f"{shortened(text)} is too large to compute with") from None
+    if value and not written:
+        raise UnitError(f"{shortened(text)} is too small to compute with")
+    return written
+
+
+def to_unit(value: float, unit: str) -> float:
+    """Convert an SI value into a unit.
+
+    Examples
+    --------
+    >>> to_unit(626480.0, "kN/m")
+    626.48
+    """
+    factor = parse_unit(unit).factor
+    return float(exact(value) / factor) if math.isfinite(value) else float(value)
+
+
+def format_number(value: float, digits: int = 6) -> str:
+    """Return a number with its digits grouped in threes, or as a power of ten where that reads better.
+
+    Examples
+    --------
+    >>> format_number(1046770.0), format_number(1e18), format_number(0.7465)
+    ('1 046 770', '1e+18', '0.7465')
+    """
+    if value == 0 or not math.isfinite(value):
+        return f"{value:g}".replace("-0", "0")
+    if not 1e-4 <= abs(value) < 1e9:
+        return f"{value:.{digits}g}"
+    decimals = max(0, digits - 1 - math.floor(math.log10(abs(value))))
+    rounded = f"{float(f'{value:.{digits}g}'):,.{decimals}f}".replace(",", " ")
+    return rounded.rstrip("0").rstrip(".") if "." in rounded else rounded
+
+
+def format_quantity(value: float, unit: str, digits: int = 6) -> str:
+    """Return an SI value as a text in a unit.
+
+    Parameters
+    ----------
+    value : float
+        The value in SI.
+    unit : str
+        The unit to show; ``"-"`` or an empty text for a plain number.
+    digits : int
+        Significant digits.
+
+    Returns
+    -------
+    str
+        Number and unit.
+
+    Examples
+    --------
+    >>> format_quantity(626480.0, "kN/m"), format_quantity(300 / 3.6, "km/h"), format_quantity(0.15, "-")
+    ('626.48 kN/m', '300 km/h', '0.15')
+    """
+    return f"{format_number(to_unit(value, unit), digits)} {unit.strip('-')}".strip()

@@ -1,0 +1,109 @@
+"""Where and how fast the bogie runs: its speeds and the tightest curve."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from .diagnostics import Mistakes
+from .table import Parameter, as_choice, as_count, check_ends, check_fields, documented, parameter, table
+from .written import Written, exact
+
+Load = Literal["axle", "wheel"]
+LOADS: tuple[str, ...] = get_args(Load)
+STEPS = (2, 1001)
+
+SPEED = Parameter(
+    key="speed",
+    symbol="v",
+    unit="km/h",
+    meaning="running speed",
+    hard=(0.01, 1000.0),
+    usual=(20 / 3.6, 600 / 3.6),
+    source="300",
+)
+
+
+@documented
+@dataclass(frozen=True, kw_only=True)
+class Curve:
+    """The tightest curve, which limits the damping from above.
+
+    The rotational resistance T / (4 Q a) in the transition curve must not exceed `limit`.
+
+    Parameters
+    ----------
+    limit : float
+        Largest rotational resistance [-].
+    load : {"axle", "wheel"}
+        Meaning of Q: the axle load W, as in the paper, or the wheel load W/2, as in railway standards.
+    """
+
+    R: float = parameter("R", "m", "radius of the curve", hard=(1.0, 1e7), usual=(60, 20e3), source="300")
+    L: float = parameter(
+        "L", "m", "distance of the bogie centres of the car", hard=(0.1, 1e3), usual=(5, 30), source="19"
+    )
+    l: float = parameter("l", "m", "length of the transition curve", hard=(0.1, 1e5), usual=(5, 2e3), source="60")  # noqa: E741
+    V_r: float = parameter(
+        r"V_\mathrm{r}",
+        "km/h",
+        "largest speed in the curve",
+        hard=(0.01, 1000.0),
+        usual=(5 / 3.6, 400 / 3.6),
+        source="90",
+    )
+    limit: float = parameter(
+        r"X_\mathrm{max}",
+        "-",
+        "largest rotational resistance T/(4 Q a)",
+        hard=(1e-6, 100.0),
+        usual=(0.01, 0.5),
+        source="0.08",
+        default=0.08,
+    )
+    load: Load = "axle"
+
+    def __post_init__(self) -> None:
+        mistakes = Mistakes()
+        with mistakes.under("curve"):
+            check_fields(self)
+        with mistakes.under("curve.load"):
+            as_choice(self.load, LOADS)
+        mistakes.report()
+
+
+CURVE = table(Curve)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpeedRange:
+    """A range of running speeds, checked at equally spaced ones.
+
+    Parameters
+    ----------
+    min, max : float
+        Least and largest speed [m/s].
+    steps : int
+        Number of speeds, both ends included.
+    """
+
+    min: float
+    max: float
+    steps: int = 11
+
+    def __post_init__(self) -> None:
+        mistakes = Mistakes()
+        with mistakes.under("speed"):
+            low, high = check_ends(self.min, self.max, SPEED)
+            object.__setattr__(self, "min", low)
+            object.__setattr__(self, "max", high)
+        with mistakes.under("speed.steps"):
+            object.__setattr__(self, "steps", as_count(self.steps, *STEPS))
+        mistakes.report()
+
+    @property
+    def values(self) -> tuple[float, ...]:
+        """The speeds [m/s], each the nearest double of its exact value."""
+        low, high = exact(self.min), exact(self.max)
+        last = self.steps - 1
+        return tuple(Written(low + (high - low) * step / last) for step in range(self.steps))

@@ -1,0 +1,103 @@
+"""A problem file to start from: Table I, written out and explained."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from .diagnostics import Mistakes
+from .parameters import KINDS, PARAMETERS, parameter_keys
+from .running import CURVE
+from .table import Parameter, as_choice
+from .variables import DEFAULT_BOUNDS, default_variables
+
+_HEAD = """\
+# yaml-language-server: $schema=problem.schema.json
+# The line above gives an editor completion and hover texts; `yawdesign schema > problem.schema.json` writes that file.
+#
+# A number alone is in SI (N, m, kg, s, rad); a text has a unit: 626.48 kN/m, 300 km/h, 11.52 kN·s·m/rad.
+# Blanks or _ group digits; *, · and blanks join units; ^2 or ² is a power; the decimal sign is a point.
+# `yawdesign check` names every mistake with its line.
+
+title: {title}
+
+# reciprocal: the yaw reaction of the motors acts on the frame (action = reaction).
+# as-printed: without it, as in the published equations, to compare with published numbers.
+equations: reciprocal
+
+bogie:
+  kind: {kind:<22} # power: two motors hung on the frame; trailer: no motors, and none of their keys
+  # base: table1               # a preset; then only the keys that differ from it need to be written
+"""
+
+_TAIL = """\
+
+# The running speed, or a range of which every speed must be stable:
+# speed: {{min: 200 km/h, max: 300 km/h, steps: 11}}
+speed: 300 km/h
+
+# The tightest curve. It limits the yaw damping from above; without it there is no upper limit.
+curve:
+{curve}
+  load: axle                   # Q is the axle load W (axle) or the wheel load W/2 (wheel, as railway standards have it)
+
+design:
+  objective: decay_rate        # make the least decay rate [1/s] as large as possible, or the least damping_ratio [-]
+  variables:                   # what may be changed; any parameter of the bogie may stand here
+{variables}
+"""
+
+_GROUPS = (
+    ("masses and yaw inertias, axle load", ("M_b", "J_b", "M_w", "J_w", "M_m", "J_m", "W")),
+    ("suspension", ("K_1x", "K_1y", "K_2x", "K_2y", "K_m", "K_mphi")),
+    ("joints of the dampers, a damper having one at each end", ("K_ds", "K_dt", "K_dm")),
+    ("dampers", ("C_t", "C_s", "C_mphi", "C_m")),
+    ("distances", ("a", "b", "a_0", "b_0", "b_1", "b_2", "b_3")),
+    ("wheel and rail", ("r", "lambda", "f_11", "f_22")),
+)
+
+
+def starter(kind: str = "power") -> str:
+    """Return a commented problem file to start from.
+
+    Parameters
+    ----------
+    kind : {"power", "trailer"}
+        With or without motors.
+
+    Returns
+    -------
+    str
+        YAML with the values of Table I, which reads without errors.
+
+    Examples
+    --------
+    >>> print(starter().splitlines()[7])
+    title: A power bogie
+    """
+    with (mistakes := Mistakes()).under("kind"):
+        as_choice(kind, KINDS)
+    mistakes.report()
+    head = _HEAD.format(title=f"A {kind} bogie", kind=kind)
+    curve = "\n".join(_line(row, row.example) for row in CURVE.values())
+    variables = "\n".join(_variable(key) for key in default_variables(kind))
+    return f"{head}{bogie_lines(kind)}\n{_TAIL.format(curve=curve, variables=variables)}"
+
+
+def bogie_lines(kind: str) -> str:
+    """Return the values of Table I as commented lines, in groups."""
+    keys = parameter_keys(kind)
+    return "\n".join(_group(title, [key for key in group if key in keys]) for title, group in _GROUPS)
+
+
+def _group(title: str, keys: Sequence[str]) -> str:
+    rows: Iterable[Parameter] = (PARAMETERS[key] for key in keys)
+    return "\n".join([f"\n  # {title}", *(_line(row, row.example) for row in rows)])
+
+
+def _line(row: Parameter, value: str) -> str:
+    return f"  {f'{row.key}: {value}':<28} # {row.meaning}"
+
+
+def _variable(key: str) -> str:
+    low, high = DEFAULT_BOUNDS[key]
+    return f"    {key}: {{min: {low}, max: {high}}}"

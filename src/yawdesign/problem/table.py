@@ -1,0 +1,208 @@
+"""The columns of the parameter table, and the one place where values are checked against it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import MISSING, dataclass, field, fields, replace
+from numbers import Real
+from types import MappingProxyType
+from typing import Any, TypeVar, cast
+
+from .diagnostics import Mistakes, ProblemError, suggestion
+from .quantities import format_number, format_quantity, parse_quantity, split_quantity
+from .units import UnitError, kind_of, parse_unit, si_unit
+from .written import Written, exact
+
+T = TypeVar("T")
+Range = tuple[float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Parameter:
+    """One row of the parameter table.
+
+    Parameters
+    ----------
+    key : str
+        Name in files and in results, such as ``K_1x`` or ``lambda``.
+    symbol : str
+        LaTeX, without dollar signs.
+    unit : str
+        Unit in which people see it.
+    meaning : str
+        What it is, in a few words.
+    hard : tuple of float
+        Least and largest value that is accepted, in SI; zero is allowed where the least value is 0.
+    usual : tuple of float
+        Least and largest value that is not doubted, in SI.
+    source : str
+        Value in Table I or the design example of the paper, as printed and in the displayed unit.
+    motor : bool
+        Whether only a power bogie has it.
+    optional : bool
+        Whether it may be left out.
+    """
+
+    key: str = ""
+    symbol: str
+    unit: str
+    meaning: str
+    hard: Range
+    usual: Range
+    source: str
+    motor: bool = False
+    optional: bool = False
+
+    @property
+    def si(self) -> str:
+        """SI unit."""
+        return si_unit(self.unit)
+
+    @property
+    def example(self) -> str:
+        """The value of the paper as it may be written in a file."""
+        return f"{self.source} {self.unit.strip('-')}".strip()
+
+    def check(self, value: object) -> Written:
+        """Return a number or a text with a unit as an SI number inside the hard range.
+
+        Raises
+        ------
+        ProblemError
+            If it is no number, has another dimension or lies outside.
+        """
+        number = as_quantity(value, self.unit, self.si)
+        low, high = map(exact, self.hard)
+        if not low <= number.exact <= high:
+            raise ProblemError(f"{_shown(value)} is outside {self.range_text(self.hard, _unit_of(value))}")
+        return number
+
+    def doubt(self, value: object) -> str | None:
+        """Return why an accepted value is unusual, or None."""
+        if self.usual[0] <= self.check(value) <= self.usual[1]:
+            return None
+        usual = self.range_text(self.usual, _unit_of(value))
+        return f"{_shown(value)} is unusual, {usual} is common: are value and unit right?"
+
+    def range_text(self, ends: Range, unit: str = "") -> str:
+        """Return a range as a text in a unit, SI if none is given."""
+        unit = unit or self.si
+        low, high = (format_number(float(exact(end) / parse_unit(unit).factor)) for end in ends)
+        return f"{low} ... {high} {unit.strip('-')}".strip()
+
+
+def parameter(
+    symbol: str, unit: str, meaning: str, *, hard: Range, usual: Range, source: str, default: Any = MISSING, **more: Any
+) -> Any:
+    """Make a dataclass field that carries a row of the table; the key is the field's name."""
+    row = Parameter(symbol=symbol, unit=unit, meaning=meaning, hard=hard, usual=usual, source=source, **more)
+    if row.motor or row.optional:
+        default = None
+    return field(default=default, metadata={"parameter": row})
+
+
+def table(cls: type) -> Mapping[str, Parameter]:
+    """Return the rows of a dataclass made with :func:`parameter`, by key and in order."""
+    rows = {f.name.rstrip("_"): f.metadata["parameter"] for f in fields(cls) if "parameter" in f.metadata}
+    return MappingProxyType({key: replace(row, key=key) for key, row in rows.items()})
+
+
+def check_end(value: object, row: Parameter, low: Written | None) -> Written:
+    """Return the upper end of a range in SI, which must lie above the lower end where that is known."""
+    high = row.check(value)
+    if low is None or low.exact < high.exact:
+        return high
+    if low.exact == high.exact:
+        raise ProblemError(f"{_shown(value)} makes an empty range: min is the same")
+    least = format_quantity(low, _unit_of(value) or row.si)
+    raise ProblemError(f"{_shown(value)} is less than min, which is {least}")
+
+
+def check_ends(low: object, high: object, row: Parameter) -> tuple[Written, Written]:
+    """Return both ends of a range in SI; the first must be less than the second."""
+    mistakes = Mistakes()
+    least = most = None
+    with mistakes.under("min"):
+        least = row.check(low)
+    with mistakes.under("max"):
+        most = check_end(high, row, least)
+    mistakes.report()
+    return cast(Written, least), cast(Written, most)
+
+
+def field_name(key: str) -> str:
+    """Return the Python name of a key: ``lambda`` is a reserved word and becomes ``lambda_``."""
+    return "lambda_" if key == "lambda" else key
+
+
+def as_quantity(value: object, unit: str, si: str = "") -> Written:
+    """Return a number (SI) or a text with a unit of the given dimension as an exact SI number."""
+    if isinstance(value, str):
+        return parse_quantity(value, unit)
+    if value is None:
+        raise ProblemError(f"has no value, expected a number in {si or si_unit(unit)} or a text with a unit")
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise ProblemError(f"{_shown(value)} is not a number, expected {kind_of(unit)} in {si or si_unit(unit)}")
+    try:
+        return Written(value if isinstance(value, Written) else exact(value))  # type: ignore[arg-type]
+    except (ValueError, OverflowError):
+        raise ProblemError(f"{_shown(value)} is not a finite number") from None
+
+
+def as_choice(value: object, choices: Collection[str]) -> str:
+    """Return `value` if it is one of `choices`."""
+    if isinstance(value, str) and value in choices:
+        return value
+    near = suggestion(value, choices) if isinstance(value, str) else ""
+    raise ProblemError(f"{_shown(value)} is not one of: {', '.join(choices)}{near}")
+
+
+def as_count(value: object, low: int, high: int) -> int:
+    """Return a whole number from `low` to `high`."""
+    number = as_quantity(value, "-").exact
+    if number.denominator != 1 or not low <= number <= high:
+        raise ProblemError(f"{_shown(value)} is not a whole number from {low} to {high}")
+    return int(number)
+
+
+def as_text(value: object) -> str:
+    """Return a text of one line."""
+    if not isinstance(value, str):
+        raise ProblemError(f"{_shown(value)} is not a text")
+    return value
+
+
+def check_fields(instance: Any) -> None:
+    """Convert and check all fields of a frozen dataclass that stand in its table, in place; report all mistakes."""
+    mistakes = Mistakes()
+    for key, row in table(type(instance)).items():
+        value = getattr(instance, field_name(key))
+        if value is None and (row.motor or row.optional):
+            continue
+        with mistakes.under(key):
+            object.__setattr__(instance, field_name(key), row.check(value))
+    mistakes.report()
+
+
+def documented(cls: type[T]) -> type[T]:
+    """Append the table of a dataclass to its docstring."""
+    lines = [f"{field_name(p.key)} : float\n    {p.meaning} [{p.si}]." for p in table(cls).values()]
+    text = "\n".join(lines).replace("\n", "\n    ")
+    cls.__doc__ = f"{(cls.__doc__ or '').rstrip()}\n    {text}\n    "
+    return cls
+
+
+def _shown(value: object) -> str:
+    if value is None:
+        return "no value"
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = value.strip() if isinstance(value, str) else f"{value!r}"
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def _unit_of(value: object) -> str:
+    try:
+        return split_quantity(value)[1] if isinstance(value, str) else ""
+    except UnitError:
+        return ""
