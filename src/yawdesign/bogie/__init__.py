@@ -1,0 +1,1 @@
+"""The physics: elements, their assembly, the characteristic polynomial."""

@@ -76,7 +76,7 @@ def split(elements: Iterable[Element], K_ds: Number) -> Characteristic:
     K_ds : number
         Series stiffness of the yaw damper [N/m].
     """
-    unit_law = [replace(e, laws=(Spring(1),)) if _is_yaw_damper(e) else e for e in folded(elements)]
+    unit_law = [_with_unit_law(e) for e in folded(elements)]
     matrix = Determinant(polynomial_matrix(unit_law))
     pieces = matrix.factors(matrix.nodes)
     core = next(piece for piece in pieces if YAW_DAMPER in piece)
@@ -86,8 +86,10 @@ def split(elements: Iterable[Element], K_ds: Number) -> Characteristic:
     return Characteristic(free, (0, *add(scale(free, 1 / K_ds), locked)), factors)
 
 
-def _is_yaw_damper(element: Single) -> bool:
-    return isinstance(element, Link) and element.name == YAW_DAMPER
+def _with_unit_law(element: Single) -> Single:
+    if isinstance(element, Link) and element.name == YAW_DAMPER:
+        return replace(element, laws=(Spring(1),))
+    return element
 
 
 def _factor_name(piece: Iterable[object]) -> str:

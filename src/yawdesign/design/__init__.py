@@ -1,0 +1,1 @@
+"""What to choose: curving limit, forward design, optimum."""

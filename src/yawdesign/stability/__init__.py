@@ -1,0 +1,1 @@
+"""Is it stable: Routh, Hurwitz, modes, critical damping."""

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from itertools import cycle, pairwise
 from typing import Any
 
 from yawdesign.bogie.characteristic import characteristic, paper_coefficients
@@ -128,7 +128,7 @@ def unstable_roots(p: Parameters, C_s: Fraction | float, *, kind: str = "power",
     """
     core = characteristic(_exact(p), kind=kind, equations=equations).core(_rational(C_s))
     # p(j w) / j^n = U(w) - j V(w): the chain of U and V counts how often the argument turns as w goes along the axis.
-    down = [a * sign for a, sign in zip(reversed(_trimmed(core)), _cycle((1, 1, -1, -1)), strict=False)]
+    down = [a * sign for a, sign in zip(reversed(_trimmed(core)), cycle((1, 1, -1, -1)), strict=False)]
     upper = _flint_polynomial(tuple(a if k % 2 == 0 else 0 for k, a in enumerate(down))[::-1])
     lower = _flint_polynomial(tuple(a if k % 2 else 0 for k, a in enumerate(down))[::-1])
     chain = [upper, lower]
@@ -276,11 +276,6 @@ def _on_axis(p: Polynomial) -> tuple[Polynomial, Polynomial]:
 def _trimmed(p: Polynomial) -> Polynomial:
     end = max((k + 1 for k, a in enumerate(p) if a != 0), default=0)
     return p[:end]
-
-
-def _cycle(signs: Sequence[int]) -> Iterator[int]:
-    while True:
-        yield from signs
 
 
 def _flint_polynomial(p: Polynomial) -> Any:

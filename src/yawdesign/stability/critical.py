@@ -19,7 +19,7 @@ from yawdesign.bogie.polynomials import Polynomial, add, evaluate, multiply, sca
 from yawdesign.bogie.vehicles import Parameters
 from yawdesign.stability.graphs import polish
 from yawdesign.stability.modes import backward_error, core_matrix, roots
-from yawdesign.stability.routh import TIME_UNIT, routh_column
+from yawdesign.stability.routh import TIME_UNIT, count_unstable
 
 Float = NDArray[np.float64]
 Interval = tuple[float, float]
@@ -138,12 +138,6 @@ def _parts(p: Polynomial) -> tuple[Polynomial, Polynomial]:
     """Return the even part E(x) and the odd part O(x) of p(j w) = E(x) + j w O(x), x = w^2."""
     even, odd = p[::2], p[1::2]
     return tuple(a * (-1) ** k for k, a in enumerate(even)), tuple(a * (-1) ** k for k, a in enumerate(odd))
-
-
-def count_unstable(p: Polynomial) -> int:
-    """Return the number of roots in the right half-plane: the changes of sign in Routh's column."""
-    column = np.array(routh_column(scale_variable(trim(p), TIME_UNIT)), dtype=float)
-    return int(np.sum(column[:-1] * column[1:] < 0))
 
 
 def _eigenvalues(p: Parameters, C_s: float, kind: str, equations: str) -> NDArray[np.complex128]:

@@ -1,14 +1,11 @@
 """Eigenvalues of the bogie, and the margins that are read from them."""
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.bogie.assembly import StateSpace, folded, physical
-from yawdesign.bogie.characteristic import DAMPER_FACTOR, Characteristic, characteristic
 from yawdesign.bogie.elements import Link, Mass, Single, WheelRailContact
 from yawdesign.bogie.polynomials import Number, Polynomial, evaluate
 from yawdesign.bogie.vehicles import Parameters, bogie

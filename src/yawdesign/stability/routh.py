@@ -1,4 +1,4 @@
-"""Routh's scheme: are all roots of a polynomial in the left half-plane, left of a line, or inside a sector?
+"""Routh's scheme: whether all roots of a polynomial in the left half-plane, left of a line, inside a sector.
 
 No determinant is ever formed. The scheme divides only by its own leading entries, so it runs on floats, arrays (many
 bogies at once), CasADi SX and rationals. A zero leading entry makes what follows NaN or infinite: not a verdict, and
@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign.bogie.polynomials import Number, Polynomial, plus, scale_variable, shift, times
+from yawdesign.bogie.polynomials import Number, Polynomial, plus, scale_variable, shift, times, trim
 
 TIME_UNIT = 100.0  # rad/s; in this unit a bogie's coefficients span ten powers of ten instead of 46
 
@@ -107,3 +107,9 @@ def damped_more(p: Polynomial, zeta: float) -> NDArray[np.bool_]:
     """Return where all roots of p (numbers or arrays) have a damping ratio above zeta."""
     with np.errstate(all="ignore"):
         return is_stable(sector_column(scale_variable(p, TIME_UNIT), zeta))
+
+
+def count_unstable(p: Polynomial) -> int:
+    """Return the number of roots in the right half-plane: the changes of sign in Routh's column."""
+    column = np.array(routh_column(scale_variable(trim(p), TIME_UNIT)), dtype=float)
+    return int(np.sum(column[:-1] * column[1:] < 0))

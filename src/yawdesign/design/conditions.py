@@ -1,0 +1,33 @@
+"""The conditions under which a margin is taken: it is always the worst over all of them."""
+
+from dataclasses import dataclass
+
+from yawdesign.bogie.vehicles import Parameters
+from yawdesign.problem import Problem
+
+
+@dataclass(frozen=True)
+class Condition:
+    """One running condition.
+
+    Parameters
+    ----------
+    speed : float
+        Running speed [m/s].
+    """
+
+    speed: float
+
+    def applied(self, p: Parameters) -> dict[str, float]:
+        """Return parameters with this condition in them."""
+        return {**p, "v": self.speed}
+
+
+def conditions(problem: Problem) -> tuple[Condition, ...]:
+    """Return the conditions of a problem: its speed, or the speeds of its range."""
+    return tuple(Condition(v) for v in problem.speeds)
+
+
+def model(problem: Problem) -> dict[str, str]:
+    """Return the keywords that choose the equations."""
+    return {"kind": problem.bogie.kind, "equations": problem.equations}

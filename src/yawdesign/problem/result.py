@@ -1,0 +1,51 @@
+"""What every result has in common: frozen plain data, a dictionary for JSON, a readable table."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, is_dataclass
+from typing import Any
+
+
+@dataclass(frozen=True, repr=False)
+class Result:
+    """A result: its attributes are the keys of `to_dict`."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data in SI that JSON can hold; what does not exist is None, a complex number is [re, im]."""
+        return {f.name: plain(getattr(self, f.name)) for f in fields(self)}
+
+    def __repr__(self) -> str:
+        rows = [(f.name, _cell(getattr(self, f.name))) for f in fields(self)]
+        width = max(len(name) for name, _ in rows)
+        return "\n".join([type(self).__name__, *(f"  {name:<{width}}  {cell}" for name, cell in rows)])
+
+
+def plain(value: Any) -> Any:
+    """Return a value as JSON can hold it."""
+    if is_dataclass(value) and not isinstance(value, type):
+        return {f.name: plain(getattr(value, f.name)) for f in fields(value)}
+    if isinstance(value, Mapping):
+        return {key: plain(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)) or hasattr(value, "tolist"):
+        entries = value.tolist() if hasattr(value, "tolist") else value
+        return [plain(entry) for entry in entries] if isinstance(entries, (list, tuple)) else plain(entries)
+    if isinstance(value, complex):
+        return [value.real, value.imag]
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    return value
+
+
+def _cell(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.9g}"
+    if isinstance(value, Mapping):
+        return ", ".join(f"{key}={_cell(entry)}" for key, entry in value.items()) or "none"
+    if isinstance(value, (list, tuple)):
+        shown = ", ".join(_cell(entry) for entry in value[:6])
+        return (shown + (f", ... ({len(value)} in all)" if len(value) > 6 else "")) or "none"
+    if isinstance(value, complex):
+        return f"{value.real:.6g}{value.imag:+.6g}j"
+    if is_dataclass(value) and not isinstance(value, type):
+        return "(" + _cell({f.name: getattr(value, f.name) for f in fields(value)}) + ")"
+    return str(value)

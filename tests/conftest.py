@@ -1,0 +1,86 @@
+"""Reference bogies, random bogies and exact arithmetic for the tests."""
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import flint
+import numpy as np
+import pytest
+
+CASES = json.loads((Path(__file__).parent / "data" / "cases.json").read_text(encoding="utf-8"))["cases"]
+TABLE_1 = CASES[0]["bogie"]
+MODELS = [("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal")]
+
+
+def pytest_generate_tests(metafunc):
+    """Run a test that asks for `case` on every reference bogie, one that asks for `model` on all three models."""
+    if "case" in metafunc.fixturenames:
+        names = [f"{c['name']}-{c['equations']}-{c['kind']}" for c in CASES]
+        metafunc.parametrize("case", CASES, ids=names)
+    if "model" in metafunc.fixturenames:
+        models = [{"kind": kind, "equations": equations} for kind, equations in MODELS]
+        metafunc.parametrize("model", models, ids=[" ".join(m) for m in MODELS])
+
+
+@pytest.fixture
+def table1():
+    """Table I in SI units at 300 km/h, as floats."""
+    return {**TABLE_1, "v": 300 / 3.6}
+
+
+@pytest.fixture(scope="session")
+def of_case():
+    """Return the parameters and the model of a reference bogie."""
+
+    def arguments(case, *, exact=False):
+        speed = Fraction(str(case["speed_kmh"])) / Fraction(18, 5)
+        p = {**case["bogie"], "v": speed if exact else float(speed)}
+        return p, {"kind": case["kind"], "equations": case["equations"]}
+
+    return arguments
+
+
+@pytest.fixture(scope="session")
+def case_named(of_case):
+    """Return the exact parameters and the model of the reference bogie with a name."""
+
+    def find(name):
+        return of_case(next(c for c in CASES if c["name"] == name), exact=True)
+
+    return find
+
+
+@pytest.fixture(scope="session")
+def random_bogies():
+    """Return n bogies around Table I: each parameter times or divided by up to `spread`, 150 to 450 km/h."""
+
+    def draw(n, *, spread=3.0, seed=1):
+        rng = np.random.default_rng(seed)
+        for _ in range(n):
+            p = {name: value * spread ** rng.uniform(-1, 1) for name, value in TABLE_1.items()}
+            kind, equations = MODELS[rng.integers(len(MODELS))]
+            yield {**p, "v": rng.uniform(150, 450) / 3.6}, {"kind": kind, "equations": equations}
+
+    return draw
+
+
+@pytest.fixture(scope="session")
+def rational():
+    """Return parameters as exact rationals: each double's own value."""
+
+    def convert(p):
+        return {name: flint.fmpq(*value.as_integer_ratio()) for name, value in p.items()}
+
+    return convert
+
+
+@pytest.fixture(scope="session")
+def exact_roots():
+    """Return the roots of a polynomial with rational coefficients, lowest power first, right to the last digit."""
+
+    def roots(p):
+        found = flint.fmpq_poly(list(p)).complex_roots()
+        return np.array([complex(s.mid()) for s, times in found for _ in range(times)])
+
+    return roots

@@ -1,0 +1,469 @@
+"""Problem files: right ones, thirty and more kinds of broken ones, and random ones."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
+
+from yawdesign.problem import PARAMETERS, ProblemError, SpeedRange, exact, load, loads, read, starter, table1
+from yawdesign.problem.parameters import parameter_keys
+from yawdesign.problem.reader import read_text
+
+PROBLEMS = sorted((Path(__file__).parents[2] / "problems").glob("*.yaml"))
+GOOD = """\
+title: a bogie
+equations: as-printed
+bogie:
+  kind: power
+  base: table1
+  M_b: 7186 kg
+  K_ds: 40 MN/m
+speed: 300 km/h
+curve:
+  R: 300 m
+  L: 19 m
+  l: 60 m
+  V_r: 90 km/h
+design:
+  objective: decay_rate
+  variables:
+    C_s: {min: 10 kN s/m, max: 10 MN s/m}
+"""
+BOMB = "a: &a [x,x,x,x,x,x,x,x,x]\n" + "".join(
+    f"{new}: &{new} [{','.join([f'*{old}'] * 9)}]\n" for old, new in zip("abcdefgh", "bcdefghi", strict=True)
+)
+
+
+def changed(line, text):
+    """Return the good file with one line replaced (counted from 1)."""
+    lines = GOOD.splitlines()
+    lines[line - 1] = text
+    return "\n".join(lines) + "\n"
+
+
+def found(text):
+    problem, diagnostics = read_text(text, "problem.yaml")
+    assert (problem is None) == any(d.severity == "error" for d in diagnostics)
+    return diagnostics
+
+
+# ---------------------------------------------------------------- right files
+
+
+def test_the_good_file_is_good():
+    problem = loads(GOOD)
+    assert found(GOOD) == ()
+    assert (problem.title, problem.equations, problem.speeds) == ("a bogie", "as-printed", (300 / 3.6,))
+    assert problem.curve.V_r == 25
+    assert dict(problem.design.variables)["C_s"].max == 1e7
+
+
+@pytest.mark.parametrize("path", PROBLEMS, ids=lambda path: path.stem)
+def test_the_shipped_problems_read_without_a_word(path):
+    problem, diagnostics = read(path)
+    assert diagnostics == ()
+    assert problem == load(path)
+    assert problem.bogie == table1(problem.bogie.kind).bogie
+
+
+def test_there_are_shipped_problems():
+    assert {path.stem for path in PROBLEMS} == {"table1", "power-bogie", "trailer-bogie"}
+
+
+def test_table1_writes_all_values_out_as_printed():
+    text = next(path for path in PROBLEMS if path.stem == "table1").read_text(encoding="utf-8")
+    keys = re.findall(r"^  (\w+): ", text, flags=re.MULTILINE)
+    assert [key for key in keys if key in PARAMETERS] == list(PARAMETERS)
+    assert loads(text).equations == "as-printed"
+
+
+@pytest.mark.parametrize("kind", ["power", "trailer"])
+def test_the_starter_reads_without_a_word_and_explains_every_parameter(kind):
+    text = starter(kind)
+    problem, diagnostics = read_text(text)
+    assert diagnostics == ()
+    assert problem.bogie == table1(kind).bogie
+    assert problem.curve == table1(kind).curve
+    assert problem.design == table1(kind).design
+    for key in parameter_keys(kind):
+        row = PARAMETERS[key]
+        assert re.search(rf"^  {key}: {re.escape(row.example)} +# {re.escape(row.meaning)}$", text, re.MULTILINE)
+    assert max(map(len, text.splitlines())) <= 120
+
+
+def test_the_starter_knows_two_kinds():
+    with pytest.raises(ProblemError, match="did you mean trailer"):
+        starter("trialer")
+
+
+def test_a_preset_without_motors_drops_their_values():
+    bogie = loads("{bogie: {base: table1, kind: trailer}, speed: 80}").bogie
+    assert bogie == table1("trailer").bogie
+
+
+def test_keys_replace_the_values_of_a_preset():
+    bogie = loads("{bogie: {base: table1, lambda: 0.3}, speed: 80}").bogie
+    assert (bogie.lambda_, bogie.M_b) == (0.3, 7186)
+
+
+def test_numbers_keep_their_decimals():
+    text = "{bogie: {base: table1, K_m: 626480.1, b: 0.7465, M_b: 7e3, W: 2.0e+5}, speed: 83.3}"
+    bogie = loads(text).bogie
+    assert exact(bogie.K_m) * 10 == 6264801
+    assert exact(bogie.b) * 10000 == 7465
+    assert (bogie.M_b, bogie.W) == (7000, 200000)
+
+
+def test_c_s_may_be_left_out():
+    text = starter().replace("  C_s: 1 000 kN·s/m", "  #")
+    assert loads(text).bogie.C_s is None
+
+
+def test_a_speed_range():
+    assert loads(changed(8, "speed: {min: 200 km/h, max: 300 km/h}")).speed == SpeedRange(
+        min="200 km/h", max="300 km/h"
+    )
+    assert len(loads(changed(8, "speed: {min: 60, max: 70, steps: 3}")).speeds) == 3
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "\ufeff" + GOOD,
+        GOOD.replace("\n", "\r\n"),
+        "---\n" + GOOD + "...\n",
+        "%YAML 1.1\n---\n" + GOOD,
+        GOOD.replace("40 MN/m", '"40 MN/m"'),
+        GOOD.replace("R: 300 m", "R: &r 300 m").replace("L: 19 m", "L: 19 m # *r"),
+        GOOD.replace("K_ds: 40 MN/m", "K_ds: &k 40 MN/m\n  K_dt: *k"),
+        "? title\n: x\n" + GOOD.split("\n", 1)[1],
+    ],
+    ids=["bom", "crlf", "document marks", "directive", "quotes", "anchor", "alias", "complex key syntax"],
+)
+def test_ways_to_write_the_same(text):
+    assert loads(text).bogie == loads(GOOD).bogie
+
+
+# --------------------------------------------------------------- broken files
+
+BROKEN = {
+    "syntax": (changed(10, "  R: [300 m"), [11], "is not YAML"),
+    "syntax, no blank after the colon": (changed(8, "speed:300 km/h"), [9], "is not YAML"),
+    "syntax, quote left open": (changed(1, 'title: "a bogie'), [17], "is not YAML"),
+    "tab as indent": (changed(6, "\tM_b: 7186 kg"), [6], "no tab"),
+    "doubled key": (changed(7, "  M_b: 7 t"), [7], "bogie.M_b: stands twice"),
+    "doubled section": (GOOD + "speed: 80\n", [18], "stands twice"),
+    "unknown key": (changed(7, "  K_dsx: 40 MN/m"), [7], "bogie.K_dsx: is not a known key; did you mean K_ds?"),
+    "unknown key without underscore": (changed(7, "  K1x: 40 MN/m"), [7], "did you mean K_1x?"),
+    "unknown key by another name": (changed(7, "  conicity: 0.1"), [7], "did you mean lambda?"),
+    "unknown section": (changed(8, "v: 300 km/h"), [8], "did you mean speed?"),
+    "unknown key in the curve": (changed(13, "  Vr: 90 km/h"), [13], "curve.Vr: is not a known key; did you mean V_r?"),
+    "parameter at the top": (GOOD + "f_22: 3\n", [18], "it belongs under bogie"),
+    "missing parameter": (changed(5, "  K_m: 3"), [3] * 27 + [5], "bogie.M_w: is missing: mass of each wheelset"),
+    "missing section": (GOOD.replace("speed: 300 km/h\n", ""), [1], "speed: is missing"),
+    "missing curve key": (GOOD.replace("  L: 19 m\n", ""), [9], "curve.L: is missing: distance"),
+    "missing bound": (changed(17, "    C_s: {min: 10 kN s/m}"), [17], "design.variables.C_s.max: is missing"),
+    "wrong dimension": (changed(7, "  K_ds: 40 kg"), [7], "40 kg is a mass, expected a stiffness such as MN/m"),
+    "wrong dimension of a bound": (changed(17, "    C_s: {min: 1 kN/m, max: 2 kN s/m}"), [17], "C_s.min: 1 kN/m is a"),
+    "unknown unit": (changed(8, "speed: 300 kmh"), [8], "'kmh' is not a known unit; did you mean km/h?"),
+    "text for a number": (changed(6, "  M_b: heavy"), [6], "'heavy' is not a number with a unit"),
+    "not a number": (changed(6, "  M_b: .nan"), [6], "nan is not a finite number"),
+    "infinity": (changed(6, "  M_b: -.inf"), [6], "-inf is not a finite number"),
+    "overflow": (changed(6, "  M_b: 1e999"), [6], "too large"),
+    "huge exponent": (changed(6, "  M_b: 1e999999999 kg"), [6], "too large"),
+    "many digits": (changed(6, "  M_b: " + "9" * 9999), [6], "too long"),
+    "zero mass": (changed(6, "  M_b: 0 kg"), [6], "0 kg is outside 0.001 ... 1e+18 kg"),
+    "negative stiffness": (changed(7, "  K_ds: -40 MN/m"), [7], "-40 MN/m is outside 1e-06 ... 1e+12 MN/m"),
+    "negative plain number": (changed(7, "  K_ds: -40"), [7], "-40 is outside 1 ... 1e+18 N/m"),
+    "speed of zero": (changed(8, "speed: 0 km/h"), [8], "speed: 0 km/h is outside"),
+    "empty range": (changed(8, "speed: {min: 300 km/h, max: 300 km/h}"), [8], "empty range"),
+    "exchanged bounds": (
+        changed(8, "speed: {min: 83, max: 200 km/h}"),
+        [8],
+        "200 km/h is less than min, which is 298.8",
+    ),
+    "exchanged design bounds": (changed(17, "    C_s: {min: 2 MN s/m, max: 1 kN s/m}"), [17], "is less than min"),
+    "one speed is no range": (changed(8, "speed: {min: 60, max: 70, steps: 1}"), [8], "whole number from 2 to 1001"),
+    "half a step": (changed(8, "speed: {min: 60, max: 70, steps: 2.5}"), [8], "not a whole number"),
+    "billion laughs": (BOMB, range(1, 10), "more than 5000 values"),
+    "alias inside its own anchor": ("a: &a [*a]\n", [1], "names nothing that is complete"),
+    "unknown alias": (changed(8, "speed: *v"), [8], "names nothing"),
+    "deep nesting": ("[" * 10_000, [1], "nested deeper"),
+    "deep nesting of mappings": ("{a: " * 10_000, [1], "nested deeper"),
+    "deep block nesting": ("- " * 5_000 + "x", [1], "nested deeper"),
+    "many values": ("title: [" + "1," * 20_000 + "1]", [1], "more than 5000 values"),
+    "long text": ("#" * 300_000, [1], "longer than 256 KiB"),
+    "empty": ("", [1], "the file is empty"),
+    "comments only": ("# nothing\n# at all\n", [1], "the file is empty"),
+    "a list": ("- bogie\n- speed\n", [1], "'key: value' lines"),
+    "a text": ("bogie", [1], "'key: value' lines"),
+    "control characters": (changed(1, "title: \x07"), [1], "must not hold"),
+    "boolean for a number": (changed(6, "  M_b: true"), [6], "true is not a number"),
+    "null for a number": (changed(6, "  M_b:"), [6], "bogie.M_b: has no value"),
+    "null for a section": (changed(14, "design: ~"), [14], "is not YAML"),
+    "null for the curve": ("bogie: {base: table1}\nspeed: 80\ncurve:\n", [3], "curve: has no value"),
+    "list for a mapping": (changed(17, "    C_s: [1, 2]"), [17], "expected keys and values: min, max"),
+    "text for a section": ("bogie: table1\nspeed: 80\n", [1], "expected keys and values: kind, base"),
+    "mapping for a number": (changed(6, "  M_b: {a: 1}"), [6], "bogie.M_b: {'a': 1} is not a number"),
+    "list for a number": (changed(8, "speed: [80, 90]"), [8], "speed: ['80', '90'] is not a number"),
+    "decimal comma": (changed(7, "  K_ds: 40,5 MN/m"), [7], "has a comma"),
+    "wrong equations": (changed(2, "equations: printed"), [2], "printed is not one of: reciprocal, as-printed"),
+    "wrong kind": (changed(4, "  kind: pwoer"), [4], "did you mean power?"),
+    "wrong objective": (changed(15, "  objective: damping"), [15], "did you mean damping_ratio?"),
+    "wrong load": (changed(12, "  l: 60 m\n  load: axel"), [13], "did you mean axle?"),
+    "motors in a trailer": (changed(4, "  kind: trailer\n  K_m: 3 kN/m"), [5], "a trailer bogie has none"),
+    "motor variable in a trailer": (
+        changed(4, "  kind: trailer").replace("C_s: {min: 10 kN", "C_m: {min: 10 kN"),
+        [17],
+        "design.variables.C_m: belongs to the motors",
+    ),
+    "unknown preset": (changed(5, "  base: table2"), [5], "table2 is not one of: table1; did you mean table1?"),
+    "preset of a wrong type": (changed(5, "  base: [table1]"), [5], "['table1'] is not one of"),
+    "two documents": (GOOD + "---\n" + GOOD, [18], "a second document"),
+    "variables of an unknown parameter": (changed(17, "    C_x: {min: 1, max: 2}"), [17], "C_x: is not a known key"),
+    "no variables": (
+        changed(16, "  variables: {}").replace("    C_s: {min: 10 kN s/m, max: 10 MN s/m}\n", ""),
+        [16],
+        "names no parameter",
+    ),
+    "robust": (GOOD + "robust: {lambda: [0.1]}\n", [18], "not part of this version"),
+    "tag": (changed(6, "  M_b: !!float 7186"), [6], "tags such as"),
+    "python tag": (changed(1, "title: !!python/object/apply:os.system [ls]"), [1], "tags such as"),
+    "merge key": (changed(6, "  <<: {M_b: 3}"), [6], "merge keys"),
+    "key that is a list": (changed(6, "  ? [a, b]\n  : 3"), [6], "is not a key"),
+    "number as key": (GOOD + "7: 3\n", [18], "7: is not a known key"),
+    "octal": (changed(6, "  M_b: 0o17"), [6], "not a known unit"),
+    "hexadecimal": (changed(6, "  M_b: 0x1F"), [6], "not a known unit"),
+    "title that is a list": (changed(1, "title: [a]"), [1], "['a'] is not a text"),
+}
+
+
+@pytest.mark.parametrize("kind", BROKEN)
+def test_broken_files(kind):
+    text, lines, fragment = BROKEN[kind]
+    diagnostics = found(text)
+    if "\n" in fragment or kind not in ("billion laughs",):
+        assert [d.line for d in diagnostics] == list(lines)
+    shown = "\n".join(d.render() for d in diagnostics)
+    assert fragment in shown
+    assert "Traceback" not in shown
+    assert "pydantic" not in shown
+    assert all(d.line in lines and d.severity == "error" for d in diagnostics)
+    assert max(map(len, shown.splitlines())) < 500
+    with pytest.raises(ProblemError):
+        loads(text)
+
+
+def test_the_contracts_example():
+    line = "K_ds: -40 MN/m"
+    diagnostic = found(changed(7, f"  {line}"))[0]
+    assert diagnostic.render() == (
+        "problem.yaml:7:9: error: bogie.K_ds: -40 MN/m is outside 1e-06 ... 1e+12 MN/m\n"
+        "     7 |   K_ds: -40 MN/m\n"
+        "       |         ^^^^^^^^"
+    )
+
+
+def test_all_mistakes_are_reported_at_once_in_the_order_of_the_lines():
+    text = (
+        GOOD.replace("M_b: 7186 kg", "M_b: 7186 m")
+        .replace("K_ds: 40 MN/m", "K_ds: -40 MN/m\n  K_ds: 3\n  K1x: 4")
+        .replace("decay_rate", "decay-rate")
+        .replace("max: 10 MN", "max: 1 N")
+        .replace("speed: 300", "sped: 300")
+    )
+    assert [(d.line, d.key) for d in found(text)] == [
+        (6, "bogie.M_b"),
+        (7, "bogie.K_ds"),
+        (8, "K_ds"),
+        (9, "bogie.K1x"),
+        (10, "sped"),
+        (17, "design.objective"),
+        (19, "design.variables.C_s.max"),
+    ]
+
+
+def test_a_misspelt_key_is_not_also_missing():
+    text = starter().replace("  M_b: ", "  Mb: ").replace("lambda: ", "conicity: ")
+    assert [d.key for d in found(text)] == ["bogie.Mb", "bogie.conicity"]
+
+
+def test_an_unknown_preset_does_not_make_all_keys_missing():
+    assert len(found("{bogie: {base: tabel1}, speed: 80}")) == 1
+
+
+def test_columns_count_characters_from_one():
+    diagnostic = found(changed(17, "    C_s: {min: 1 kN·s/m, max: 2 kg}"))[0]
+    assert (diagnostic.line, diagnostic.column, diagnostic.length) == (17, 31, 4)
+    assert diagnostic.source_line[30:34] == "2 kg"
+
+
+def test_unusual_values_are_warnings_and_the_problem_is_read():
+    text = changed(6, "  M_b: 7.186 kg").replace("max: 10 MN", "max: 1000 MN").replace("speed: 300 km/h", "speed: 300")
+    problem, diagnostics = read_text(text, "p.yaml")
+    assert problem.bogie.M_b == 7.186
+    assert [(d.severity, d.line, d.key) for d in diagnostics] == [
+        ("warning", 6, "bogie.M_b"),
+        ("warning", 8, "speed"),
+        ("warning", 17, "design.variables.C_s.max"),
+    ]
+    assert "p.yaml:6:8: warning: bogie.M_b: 7.186 kg is unusual" in diagnostics[0].render()
+    assert loads(text) == problem
+
+
+def test_an_unusual_curve_and_speed_range():
+    diagnostics = found(changed(10, "  R: 3 m").replace("300 km/h", "{min: 1 km/h, max: 300 km/h}"))
+    assert [d.key for d in diagnostics] == ["speed.min", "curve.R"]
+
+
+# ----------------------------------------------------------------------- files
+
+
+@pytest.mark.parametrize(
+    ("content", "line", "fragment"),
+    [
+        (b"title: \xff\xfe\n", 1, "is not UTF-8"),
+        (b"title: a\nspeed: \xe9\n", 2, "is not UTF-8"),
+        (bytes(range(256)) * 4, 1, "is not UTF-8"),
+        (b"\x00\x01\x02", 1, "must not hold"),
+        ("title: ü".encode("utf-16"), 1, "is not UTF-8"),
+        (b"#" * 400_000, None, "larger than 256 KiB"),
+        (b"", 1, "the file is empty"),
+    ],
+    ids=["bytes", "latin-1", "all bytes", "nul", "utf-16", "large", "empty"],
+)
+def test_files_that_are_no_texts(tmp_path, content, line, fragment):
+    path = tmp_path / "problem.yaml"
+    path.write_bytes(content)
+    problem, diagnostics = read(path)
+    assert problem is None
+    assert [d.line for d in diagnostics] == [line]
+    assert fragment in diagnostics[0].message
+    assert diagnostics[0].render().startswith(str(path))
+    with pytest.raises(ProblemError):
+        load(path)
+
+
+@pytest.mark.parametrize("name", ["missing.yaml", ".", "", "a\0b", "x" * 5000, "no/such/folder.yaml"])
+def test_files_that_cannot_be_read(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ProblemError, match="cannot be read: "):
+        load(name)
+
+
+@pytest.mark.skipif(sys.platform == "win32" or os.geteuid() == 0, reason="the superuser may read everything")
+def test_a_file_without_permission(tmp_path):
+    path = tmp_path / "problem.yaml"
+    path.write_text(GOOD, encoding="utf-8")
+    path.chmod(0)
+    with pytest.raises(ProblemError, match="cannot be read: Permission denied"):
+        load(path)
+
+
+def test_load_reads_what_loads_reads(tmp_path):
+    path = tmp_path / "pröblem.yaml"
+    path.write_text(GOOD, encoding="utf-8")
+    assert load(path) == load(str(path)) == loads(GOOD)
+
+
+# ---------------------------------------------------------------- random files
+
+QUICK = settings(deadline=None, max_examples=150, suppress_health_check=[HealthCheck.too_slow])
+
+
+def survives(text):
+    try:
+        problem = loads(text)
+    except ProblemError as error:
+        assert error.diagnostics
+        assert str(error)
+        assert all(d.line is None or d.line >= 1 for d in error.diagnostics)
+    else:
+        assert problem.speeds
+
+
+@given(st.binary(max_size=300))
+@QUICK
+def test_random_bytes(tmp_path_factory, content):
+    path = tmp_path_factory.getbasetemp() / "random.yaml"
+    path.write_bytes(content)
+    problem, diagnostics = read(path)
+    assert problem is None
+    assert diagnostics
+
+
+@given(st.text(alphabet=st.sampled_from(list("ab:-?,[]{}#&*!|>'\"%@` \n\t0.~<=\u2028\x85é")), max_size=60))
+@QUICK
+@example("? ? a\n")
+@example("? |\n a\n: b\n")
+@example("!<a> b: c")
+@example("a: |9\n b")
+@example("%TAG ! x\n---\n!a b")
+def test_random_yaml_like_texts(text):
+    survives(text)
+    survives(GOOD.replace("a bogie", text))
+
+
+LINES = tuple(GOOD.splitlines())
+PIECES = st.sampled_from(
+    ["", " ", ":", "- ", "[", "}", "&a ", "*a", "!t ", "#", "\t", "'", "~", "1e999", ".nan", "é", "\x00"]
+)
+
+
+@st.composite
+def edited(draw):
+    """Return the good file after a few random edits of lines and characters."""
+    lines = list(LINES)
+    for _ in range(draw(st.integers(1, 4))):
+        index = draw(st.integers(0, len(lines) - 1)) if lines else 0
+        match draw(st.sampled_from(["delete", "double", "swap", "insert", "cut", "indent"])):
+            case "delete":
+                del lines[index : index + 1]
+            case "double":
+                lines[index:index] = lines[index : index + 1]
+            case "swap":
+                lines[index : index + 2] = lines[index : index + 2][::-1]
+            case "insert" | "cut" as edit:
+                line = lines[index] if lines else ""
+                at = draw(st.integers(0, len(line)))
+                lines[index : index + 1] = [line[:at] + draw(PIECES) + line[at + (edit == "cut") :]]
+            case _:
+                lines[index : index + 1] = [" " + line for line in lines[index : index + 1]]
+    return "\n".join(lines)
+
+
+@given(edited())
+@settings(QUICK, max_examples=300)
+def test_random_edits(text):
+    survives(text)
+
+
+@given(st.text(max_size=40), st.sampled_from(["title", "equations", "speed", "M_b", "R", "C_s"]))
+@QUICK
+def test_random_values_in_quotes(text, key):
+    quoted = '"' + "".join(f"\\U{ord(char):08x}" for char in text) + '"'
+    survives(re.sub(rf"(\b{key}): .*", lambda match: f"{match[1]}: {quoted}", GOOD, count=1))
+
+
+# ------------------------------------------------------------------ the room
+
+
+def test_this_room_needs_no_mathematics():
+    code = (
+        "import sys, yawdesign.problem as p; p.load(sys.argv[1]); p.schema();"
+        "print([m for m in ('casadi', 'numpy', 'scipy', 'matplotlib') if m in sys.modules])"
+    )
+    result = subprocess.run([sys.executable, "-c", code, str(PROBLEMS[0])], capture_output=True, text=True, check=True)
+    assert result.stdout.strip() == "[]"
+
+
+def test_this_room_imports_no_other():
+    source = Path(sys.modules["yawdesign.problem"].__file__).parent
+    for path in source.glob("*.py"):
+        text = path.read_text(encoding="utf-8")
+        assert not re.search(r"^\s*(from|import) (\.\.|yawdesign)", text, re.MULTILINE), path.name
