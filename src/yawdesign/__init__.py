@@ -3,7 +3,9 @@
 The names below are loaded when they are first used, so that importing the package costs nothing.
 """
 
+import sys
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -63,12 +65,32 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"module 'yawdesign' has no attribute {name!r}")
-    # Importing a room binds its name here ("design", "stability"): the function of that name must win.
-    for known, home in _HOME.items():
-        if known == name or known in {"design", "stability"}:
-            globals()[known] = getattr(import_module(home), known)
-    return globals()[name]
+    return getattr(import_module(_HOME[name]), name)
 
 
 def __dir__() -> list[str]:
     return sorted([*__all__, "__version__"])
+
+
+class _Package(ModuleType):
+    """The package, in which two functions bear the names of the rooms that they live in.
+
+    Importing a room binds the room's name in its package; here the function keeps it.
+    """
+
+    @property
+    def design(self) -> Any:
+        return __getattr__("design")
+
+    @design.setter
+    def design(self, module: ModuleType) -> None: ...
+
+    @property
+    def stability(self) -> Any:
+        return __getattr__("stability")
+
+    @stability.setter
+    def stability(self, module: ModuleType) -> None: ...
+
+
+sys.modules[__name__].__class__ = _Package

@@ -101,9 +101,7 @@ def test_stable_intervals_agree_with_eigenvalues(random_bogies):
             if any(abs(C_s / x.C_s - 1) < 1e-6 for x in found.critical):
                 continue
             unstable = int(np.sum(np.linalg.eigvals(core_matrix(p, C_s, **model)).real > 0))
-            (count,) = (
-                n for (lo, hi), n in zip(found.intervals, found.unstable_roots, strict=True) if lo < C_s < hi
-            )
+            (count,) = (n for (lo, hi), n in zip(found.intervals, found.unstable_roots, strict=True) if lo < C_s < hi)
             assert count == unstable == count_unstable(characteristic(p, **model).core(C_s))
             assert any(lo < C_s < hi for lo, hi in found.stable_intervals) == (unstable == 0)
 

@@ -11,8 +11,8 @@ from yawdesign.stability.routh import routh_column
 
 # d ln C_sl / d ln p of the model as printed at 300 km/h, to the digits that are known
 SENSITIVITIES = {
-    "a": -20.6, "v": 13.7, "f_11": -7.9, "b": 6.0, "f_22": 5.9, "r": -5.9, "lambda": 5.8, "J_b": 4.4, "K_m": -4.3, "C_m": 3.4,
-    "M_m": -3.4, "M_w": 2.4, "J_w": 2.2, "C_t": -2.1, "b_3": -1.7, "b_2": -1.6, "M_b": 1.2, "K_2x": -0.8,
+    "a": -20.6, "v": 13.7, "f_11": -7.9, "b": 6.0, "f_22": 5.9, "r": -5.9, "lambda": 5.8, "J_b": 4.4, "K_m": -4.3,
+    "C_m": 3.4, "M_m": -3.4, "M_w": 2.4, "J_w": 2.2, "C_t": -2.1, "b_3": -1.7, "b_2": -1.6, "M_b": 1.2, "K_2x": -0.8,
 }  # fmt: skip
 
 

@@ -74,8 +74,8 @@ def test_running_the_mirrored_bogie_changes_nothing(random_bogies, seed, model, 
     # Front and rear exchanged, and the sense of yaw with them: negative levers in the same elements.
     p = bogie(random_bogies, seed)
     mirrored = {**p, **{name: -p[name] for name in ("a", "a_0", "b_0", "b_3")}}
-    for one, other in zip(characteristic(p, **model).core(C_s), characteristic(mirrored, **model).core(C_s), strict=True):
-        assert one == pytest.approx(other, rel=1e-13)
+    one, other = (characteristic(x, **model).core(C_s) for x in (p, mirrored))
+    assert one == pytest.approx(other, rel=1e-13)
 
 
 @few

@@ -132,6 +132,8 @@ def compose(text: str, path: str) -> Document:
     try:
         for event in YAML(typ="safe", pure=True).parse(document.text):
             builder.take(event)
+    except ProblemError:
+        raise
     except ReaderError as error:
         where = Node(int(error.position), int(error.position) + 1)
         raise document.fail(where, "holds a character that a text must not hold; is this a text file?") from None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from os import PathLike, fspath
 from typing import Any
 
@@ -102,7 +102,7 @@ def read_text(text: str, name: str = "<text>") -> Report:
     try:
         document = compose(text, name)
     except ProblemError as error:
-        return None, error.diagnostics
+        return None, _sorted(error.diagnostics)
     data = plain_data(document.root)
     if not isinstance(data, dict):
         empty = data is None
@@ -113,7 +113,11 @@ def read_text(text: str, name: str = "<text>") -> Report:
     if model is not None and not document.diagnostics:
         problem = build(model)
         _add_doubts(document, data)
-    return problem, tuple(sorted(document.diagnostics, key=lambda d: (d.line or 0, d.column or 0)))
+    return problem, _sorted(document.diagnostics)
+
+
+def _sorted(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    return tuple(sorted(diagnostics, key=lambda d: (d.line or 0, d.column or 0)))
 
 
 def _accepted(report: Report) -> Problem:

@@ -1,0 +1,163 @@
+"""Global search of a design space: dense verdicts first, then refinement of the best point of many cells.
+
+A margin is the least of many smooth functions, with kinks and coalescing roots at its best points, and has many local
+optima. A verdict "is the margin above this level" by Routh's array costs about a microsecond, a margin by eigenvalues
+two hundred; so all points get a verdict against the best margin of their own cell, and few get a margin.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import qmc
+
+from yawdesign.design.space import Float, Space
+
+BLOCK = 6000  # points at once: their coefficients stay in the cache
+CELLS = 6  # cells per axis, each with a best point of its own
+STARTS = 20  # cells that are refined
+OTHERS = 8100  # points in the variables other than C_s
+LINE = 90  # points along C_s
+
+Progress = Callable[[str, float], None]
+
+
+@dataclass
+class _Cells:
+    """The best point of every cell."""
+
+    x: Float
+    margin: Float
+
+    def index(self, x: Float) -> NDArray[np.intp]:
+        """Return the cell of each point; only the first three variables are divided."""
+        cells = np.minimum((x[:3] * CELLS).astype(int), CELLS - 1)
+        return np.ravel_multi_index(tuple(cells), (CELLS,) * len(cells)).astype(np.intp)
+
+    def offer(self, x: Float, margin: Float) -> None:
+        """Keep those points that are better than their cell's best."""
+        for k in np.argsort(margin):
+            cell = self.index(x[:, k])
+            if margin[k] > self.margin[cell]:
+                self.margin[cell], self.x[:, cell] = margin[k], x[:, k]
+
+
+def search(space: Space, seed: int, progress: Progress) -> Float:
+    """Return refined points of the cube, shape (variables, points), the best first."""
+    d, rng = len(space.names), np.random.default_rng(seed)
+    n = CELLS ** min(d, 3)
+    cells = _Cells(np.full((d, n), 0.5), np.full(n, -np.inf))
+    first = qmc.Sobol(d, rng=rng).random(1024).T
+    cells.offer(first, space.margins_at(first))
+    blocks = list(_blocks(space, rng))
+    for k, x in enumerate(blocks):
+        progress("searching the design space", k / len(blocks))
+        _look(space, cells, x)
+    order = np.argsort(-cells.margin, kind="stable")[:STARTS]
+    order = order[np.isfinite(cells.margin[order])]
+    return refine(space, cells.x[:, order], cells.margin[order], rng, progress=progress)
+
+
+def _look(space: Space, cells: _Cells, x: Float) -> None:
+    levels = np.maximum(cells.margin[cells.index(x)], -1e3)
+    flat = np.broadcast_to(space.beats(space.values(x), levels), x.shape[1:])
+    chosen = x[:, flat]
+    for part in np.array_split(chosen, max(1, chosen.shape[1] // 500), axis=1):
+        if part.shape[1]:
+            cells.offer(part, space.margins_at(part))
+
+
+def _blocks(space: Space, rng: np.random.Generator) -> Iterator[Float]:
+    """Yield blocks of points: a grid in up to two variables beside C_s, a Sobol sequence in more; a line in C_s."""
+    has_damping = space.names[-1] == "C_s"
+    others = len(space.names) - has_damping
+    line = {0: 20_000, 1: 400}.get(others, LINE) if has_damping else 1
+    total = OTHERS if has_damping else 262_144
+    points = _others(others, total, rng)
+    size = max(1, BLOCK // line)
+    for start in range(0, points.shape[1], size):
+        block = points[:, start : start + size]
+        if not has_damping:
+            yield block
+            continue
+        # Every line has its own phase, so that together they miss no damping.
+        steps = (np.arange(line) + rng.random((block.shape[1], 1))) / line
+        wide = np.broadcast_to(block[:, :, None], (others, *steps.shape))
+        yield np.concatenate([wide.reshape(others, -1), steps.reshape(1, -1)])
+
+
+def _others(d: int, total: int, rng: np.random.Generator) -> Float:
+    if d == 0:
+        return np.zeros((0, 1))
+    if d > 2:
+        return np.asarray(qmc.Sobol(d, rng=rng).random(1 << (total - 1).bit_length()).T)
+    n = round(total ** (1 / d)) if d == 2 else min(total, 2000)
+    axes = np.meshgrid(*[np.linspace(0, 1, n)] * d, indexing="ij")
+    jitter = rng.random((d, 1)) - 0.5
+    return np.clip(np.stack([axis.ravel() for axis in axes]) + jitter / n, 0, 1)
+
+
+def refine(
+    space: Space,
+    x: Float,
+    margin: Float,
+    rng: np.random.Generator,
+    *,
+    radius: float = 0.03,
+    until: float = 1e-7,
+    points: int = 192,
+    progress: Progress = lambda text, part: None,
+) -> Float:
+    """Return points improved by shrinking random stencils, all at once, the best first.
+
+    Each point has a radius of its own, which grows with success and shrinks without. Half of a stencil follows the
+    last successful step, which is how it walks along a ridge. Points that have come close to a better one are dropped.
+    """
+    d, n = x.shape
+    x, margin, size, step = x.copy(), margin.copy(), np.full(n, radius), np.zeros((d, n))
+    start = np.log(radius / until)
+    while n and (alive := size > until).any():
+        progress("refining the best designs", 1 - np.log(size.max() / until) / start)
+        k = np.flatnonzero(alive)
+        trial = _stencil(x[:, k], size[k], step[:, k], points, rng)
+        better, value = _best_of(space, trial, margin[k])
+        won = value > margin[k]
+        step[:, k] = np.where(won, better - x[:, k], step[:, k] * 0.5)
+        x[:, k], margin[k] = np.where(won, better, x[:, k]), np.where(won, value, margin[k])
+        size[k] = np.where(won, np.minimum(1.5 * size[k], 0.2), 0.6 * size[k])
+        keep = _distinct(x, margin, size)
+        x, margin, size, step, n = x[:, keep], margin[keep], size[keep], step[:, keep], len(keep)
+    return x[:, np.argsort(-margin, kind="stable")]
+
+
+def _stencil(x: Float, size: Float, step: Float, points: int, rng: np.random.Generator) -> Float:
+    d, n = x.shape
+    noise = rng.standard_normal((d, n, points)) * size[:, None] * rng.random((1, n, points)) ** 2
+    along = step[:, :, None] * rng.exponential(1.5, (1, n, points)) * (np.arange(points) % 2)
+    return np.asarray(np.clip(x[:, :, None] + noise + along, 0, 1))
+
+
+def _best_of(space: Space, trial: Float, level: Float) -> tuple[Float, Float]:
+    """Return the best point of each stencil and its margin, found with verdicts at rising levels."""
+    d, n, m = trial.shape
+    values = space.values(trial.reshape(d, -1))
+    beats = np.broadcast_to(space.beats(values, np.repeat(level, m)), n * m).reshape(n, m)
+    best, margin = trial[:, :, 0].copy(), np.full(n, -np.inf)
+    rows, columns = np.nonzero(beats & (np.cumsum(beats, axis=1) <= 12))
+    if rows.size:
+        found = space.margins_at(trial[:, rows, columns])
+        for k in np.argsort(found):
+            best[:, rows[k]], margin[rows[k]] = trial[:, rows[k], columns[k]], found[k]
+    return best, margin
+
+
+def _distinct(x: Float, margin: Float, size: Float) -> NDArray[np.intp]:
+    """Return the points to go on with: none that lies within its reach of a better one, nor ten per cent behind late."""
+    keep: list[int] = []
+    for k in np.argsort(-margin, kind="stable"):
+        near = any(np.max(np.abs(x[:, k] - x[:, j])) < max(size[k], 1e-3) for j in keep)
+        late = bool(keep) and size[k] < 1e-3 and margin[k] < margin[keep[0]] - 0.1 * abs(margin[keep[0]])
+        if not near and not late:
+            keep.append(int(k))
+    return np.array(keep, dtype=np.intp)
