@@ -36,7 +36,7 @@ def inside(path):
     """Yield the rooms a module imports from; a name of the package itself comes from no room but from above all."""
     for name in imports(path):
         if name.split(".")[0] == "yawdesign":
-            yield (name.split(".") + [""])[1]
+            yield [*name.split("."), ""][1]
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))

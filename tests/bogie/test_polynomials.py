@@ -93,7 +93,7 @@ def sparse(matrix):
     return {(i, j): matrix[i][j] for i in range(n) for j in range(n) if matrix[i][j] or i == j}
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(matrices)
 def test_determinant_is_that_of_leibniz(matrix):
     determinant = poly.Determinant(sparse(matrix))

@@ -59,12 +59,18 @@ def test_figure_3a_has_a_range_with_several_values(table1, hertz, several):
 
 
 def test_figure_3a_with_the_damping_ratio_held(table1):
-    frequencies = np.geomspace(1, 300, 400)
+    frequencies = np.geomspace(1, 300, 200)
     curve = [values(with_damping_ratio(with_frequency(table1, f), 0.3)) for f in frequencies]
-    assert {len(c) for c in curve} == {1}
-    height = np.ravel(curve)
+    # One value but in a notch a hundredth of a hertz wide, where the curve is so steep that it folds back.
+    assert all(3.225 < f < 3.232 for f, c in zip(frequencies, curve, strict=True) if len(c) != 1)
+    height = np.array([c[0] for c in curve])
     assert (height.min(), height.max(), height[-1]) == pytest.approx((74.7, 678, 648), rel=0.01)
     assert frequencies[[height.argmin(), height.argmax()]] == pytest.approx([3.16, 5.5], rel=0.02)
+
+
+@pytest.mark.parametrize(("hertz", "several"), [(3.22, False), (3.228, True), (3.235, False)])
+def test_figure_3a_with_the_damping_ratio_held_folds_back(table1, hertz, several):
+    assert (len(values(with_damping_ratio(with_frequency(table1, hertz), 0.3))) > 1) == several
 
 
 @pytest.mark.parametrize(("xi", "expected"), [(0.2, 58.9), (0.3, 90.7), (0.4, 274), (0.5, 380), (1.0, 526)])
@@ -72,6 +78,6 @@ def test_figure_3b(table1, xi, expected):
     assert values(with_damping_ratio(table1, xi)) == pytest.approx([expected], rel=0.01)
 
 
-@pytest.mark.parametrize(("xi", "several"), [(0.116, False), (0.114, True), (0.07, True)])
+@pytest.mark.parametrize(("xi", "several"), [(0.12, False), (0.118, True), (0.07, True)])
 def test_figure_3b_has_several_values_at_low_damping(table1, xi, several):
     assert (len(values(with_damping_ratio(table1, xi))) > 1) == several

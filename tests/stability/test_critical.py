@@ -131,3 +131,11 @@ def test_a_damper_without_damping_is_no_obstacle(table1, of_case):
     found, proved = critical_damping(p), certify(exactly(p))
     assert found.unstable_roots == proved.unstable_roots
     assert [x.C_s for x in found.critical] == pytest.approx([x.C_s for x in proved.critical], rel=1e-8)
+
+
+@pytest.mark.parametrize("seed", [111, 7, 19])
+def test_a_root_that_is_a_candidate_itself(random_bogies, seed):
+    # An array and a single number differ in the last bit, and at the root itself that decides the sign.
+    for (p, _), k in zip(random_bogies(40, seed=seed), np.geomspace(1e-3, 1e3, 40), strict=True):
+        found = critical_damping(force_scaled(p, k))
+        assert found.checked

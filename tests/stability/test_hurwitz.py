@@ -68,3 +68,13 @@ def test_arrays():
     chi = (np.array([1.0, 1.0]), np.array([6.0, 1.0]), np.array([11.0, 1.0]), np.array([6.0, 3.0]))
     signs, _ = hurwitz_minors(chi, unit=1.0)
     assert [list(s) for s in signs] == [[1, 1], [1, -1], [1, -1]]
+
+
+def test_positive_coefficients_and_a_positive_last_minor_do_not_suffice():
+    # What the paper states after (10): here are four roots on the right, and neither of the two signs sees them.
+    roots = np.array([0.08 + 2.32j, 0.07 + 2.84j])
+    chi = np.real(np.poly([*roots, *roots.conj(), -2.45, -0.0082]))
+    signs, _ = hurwitz_minors(tuple(chi), unit=1.0)
+    assert np.all(chi > 0)
+    assert signs[-1] > 0
+    assert min(signs) < 0

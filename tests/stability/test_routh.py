@@ -1,6 +1,7 @@
 """Routh's scheme against roots."""
 
 from fractions import Fraction
+from itertools import pairwise
 
 import casadi as ca
 import numpy as np
@@ -50,7 +51,7 @@ def test_damping_ratio(root_set, zeta):
 
 
 def changes(column):
-    return sum(a * b < 0 for a, b in zip(column, column[1:], strict=False))
+    return sum(a * b < 0 for a, b in pairwise(column))
 
 
 @settings(max_examples=200, deadline=None)

@@ -16,7 +16,7 @@ import numpy as np
 from yawdesign.bogie.characteristic import characteristic
 from yawdesign.bogie.polynomials import Polynomial, product, scale_variable, shift, trim
 from yawdesign.design.curving import resistance_scale, resisting_moment
-from yawdesign.design.space import Float, Space, fraction
+from yawdesign.design.space import Float, Space, between, fraction
 from yawdesign.stability.modes import roots
 from yawdesign.stability.routh import TIME_UNIT
 
@@ -28,6 +28,13 @@ OPTIONS: Mapping[str, Any] = {
     "ipopt.tol": 1e-9,
     "error_on_fail": False,
 }
+
+# From a kink IPOPT must not be pushed far inside first, from a slope it must: no one setting serves all starts.
+PUSHES: tuple[Mapping[str, Any], ...] = (
+    {},
+    {"ipopt.mu_init": 1e-4, "ipopt.bound_push": 1e-6, "ipopt.bound_frac": 1e-6},
+    {"ipopt.mu_init": 1e-6, "ipopt.bound_push": 1e-8, "ipopt.bound_frac": 1e-8, "ipopt.slack_bound_push": 1e-8},
+)
 
 
 @dataclass
@@ -60,8 +67,8 @@ class _Program:
         self.g_high.append(high)
 
 
-def improve(space: Space, x: Float, margin: float, options: Mapping[str, Any]) -> Float:
-    """Return the point that IPOPT reaches from a point of the cube; it may be worse, or no number: look at it.
+def improve(space: Space, x: Float, margin: float, options: Mapping[str, Any]) -> list[Float]:
+    """Return the points that IPOPT reaches from a point of the cube; some may be worse, or no numbers: look at them.
 
     Parameters
     ----------
@@ -73,7 +80,24 @@ def improve(space: Space, x: Float, margin: float, options: Mapping[str, Any]) -
         Margin there.
     options : mapping
         CasADi `nlpsol` options; they win over the defaults.
+
+    Returns
+    -------
+    list of ndarray
+        One point of the cube for each of `PUSHES`.
     """
+    program, t = _program(space, x, margin)
+    places = [_solve(program, t, {**OPTIONS, **push, **options}, len(space.names)) for push in PUSHES]
+    return [_in_cube(space, place) if np.all(np.isfinite(place)) else place for place in places]
+
+
+def _in_cube(space: Space, places: Float) -> Float:
+    """Return the point of the cube that belongs to fractions between the bounds as written."""
+    values = {name: between(*space.bounds(name), place) for name, place in zip(space.names, places, strict=True)}
+    return space.coordinates({name: float(value) for name, value in values.items()})
+
+
+def _program(space: Space, x: Float, margin: float) -> tuple[_Program, ca.SX]:
     program, start = _Program(), {name: float(np.squeeze(v)) for name, v in space.values(x).items()}
     ratio = space.problem.design.objective == "damping_ratio"
     unit = 1.0 if ratio else TIME_UNIT
@@ -91,7 +115,7 @@ def improve(space: Space, x: Float, margin: float, options: Mapping[str, Any]) -
         now = _polynomials(space, case.applied(start), start["C_s"])
         for part, p in enumerate(_polynomials(space, case.applied(values), values["C_s"])):
             _factorise(program, f"{number}.{part}", p, now[part], t, t0, ratio)
-    return _solve(program, t, {**OPTIONS, **options}, len(space.names))
+    return program, t
 
 
 def _solve(program: _Program, t: ca.SX, options: Mapping[str, Any], variables: int) -> Float:

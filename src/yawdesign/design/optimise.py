@@ -12,13 +12,13 @@ from yawdesign.design.curving import rotational_resistance
 from yawdesign.design.forward import ForwardDesign, design
 from yawdesign.design.nlp import improve
 from yawdesign.design.search import Progress, refine, search
-from yawdesign.design.space import Float, Space, between, fraction
+from yawdesign.design.space import Float, Space, fraction
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.stability.hurwitz import hurwitz_minors
 from yawdesign.stability.routh import TIME_UNIT
 from yawdesign.stability.verdict import Mode, Stability, stability_at
 
-NLP_STARTS = 3
+NLP_STARTS = 6
 AGREE = 1e-6  # how close the margins by two routes must be, relative
 ACTIVE = 1e-4  # a variable within this share of its range from a bound stands at the bound
 
@@ -135,20 +135,13 @@ def _best(space: Space, found: Float, seed: int, options: Mapping[str, Any], pro
     for k in range(min(NLP_STARTS, found.shape[1])):
         progress("solving the NLP", k / NLP_STARTS)
         start = found[:, k]
-        improved = improve(space, start, float(space.margins_at(start[:, None])[0]), options)
-        if np.all(np.isfinite(improved)):
-            inside = space.coordinates({name: float(v) for name, v in _from_bounds(space, improved).items()})
-            candidates.append(inside[:, None])
+        reached = improve(space, start, float(space.margins_at(start[:, None])[0]), options)
+        candidates += [y[:, None] for y in reached if np.all(np.isfinite(y))]
     x = np.concatenate(candidates, axis=1)
     margin = space.margins_at(x)
     order = np.argsort(-margin, kind="stable")[:2]
     rng = np.random.default_rng(seed)
     return refine(space, x[:, order], margin[order], rng, radius=1e-4, until=1e-11)[:, 0]
-
-
-def _from_bounds(space: Space, x: Float) -> dict[str, float]:
-    """Return the values at fractions between the bounds as written, which is how the NLP counts."""
-    return {name: between(*space.bounds(name), place) for name, place in zip(space.names, x, strict=True)}
 
 
 def _answer(space: Space, x: Float) -> Optimum:

@@ -17,8 +17,8 @@ from yawdesign.design.space import Float, Space
 BLOCK = 6000  # points at once: their coefficients stay in the cache
 CELLS = 6  # cells per axis, each with a best point of its own
 STARTS = 20  # cells that are refined
-OTHERS = 8100  # points in the variables other than C_s
-LINE = 90  # points along C_s
+OTHERS = 4900  # points in the variables other than C_s
+LINE = 72  # points along C_s
 
 Progress = Callable[[str, float], None]
 
@@ -105,7 +105,7 @@ def refine(
     rng: np.random.Generator,
     *,
     radius: float = 0.03,
-    until: float = 1e-7,
+    until: float = 1e-5,
     points: int = 192,
     progress: Progress = lambda text, part: None,
 ) -> Float:
@@ -125,7 +125,7 @@ def refine(
         won = value > margin[k]
         step[:, k] = np.where(won, better - x[:, k], step[:, k] * 0.5)
         x[:, k], margin[k] = np.where(won, better, x[:, k]), np.where(won, value, margin[k])
-        size[k] = np.where(won, np.minimum(1.5 * size[k], 0.2), 0.6 * size[k])
+        size[k] = np.where(won, np.minimum(1.5 * size[k], 0.2), 0.7 * size[k])
         keep = _distinct(x, margin, size)
         x, margin, size, step, n = x[:, keep], margin[keep], size[keep], step[:, keep], len(keep)
     return x[:, np.argsort(-margin, kind="stable")]

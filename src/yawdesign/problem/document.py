@@ -107,14 +107,15 @@ class Document:
         )
 
     def find(self, path: Path, *, key: bool = False) -> Node:
-        """Return the node at a path, or the innermost one around it; with `key`, the node of the key itself."""
+        """Return the node at a path, or the innermost around it; the key's with `key` or where there is no value."""
         node, name = self.root, Node(self.root.start, self.root.start + 1)
         for part in path:
             if not isinstance(node, Mapping) or part not in node.values:
                 return name
             name = node.keys[str(part)]
             node = node.values[str(part)]
-        return name if key else node
+        nothing = isinstance(node, Scalar) and node.start == node.end
+        return name if key or (nothing and path) else node
 
 
 def compose(text: str, path: str) -> Document:
@@ -150,15 +151,28 @@ def _unified(text: str) -> str:
     return text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
 
 
+# What the parser says in its words, what that means, and whether the mistake is where the piece began.
+_SYNTAX = (
+    ("could not find expected ':'", "a key is followed by a colon and a blank", True),
+    ("found unexpected end of stream", "the quote that opens here is not closed", True),
+    ("expected ',' or", "the bracket that opens here is not closed, or a comma is missing in it", True),
+    ("mapping values are not allowed", "no second ': ' may stand here: look at the indentation and at quotes", False),
+    ("expected <block end>", "does not continue what stands above: look at the indentation", False),
+    ("cannot start any token", "this character cannot begin a value: put the value in quotes", False),
+)
+
+
 def _explained(error: MarkedYAMLError, text: str) -> tuple[Node, str]:
-    mark = error.problem_mark or error.context_mark
+    said = (error.problem or error.context or "cannot be read").strip().replace("\n", " ")
+    known = (row[1:] for row in _SYNTAX if row[0] in said)
+    meaning, from_start = next(known, (said[:120], False))
+    mark = (error.context_mark if from_start else None) or error.problem_mark or error.context_mark
     index = min(int(mark.index), len(text)) if mark is not None else 0
     if text[index : index + 1] == "\t":
         return Node(index, index + 1), "indent with blanks: YAML allows no tab here"
-    said = (error.problem or error.context or "cannot be read").strip().replace("\n", " ")
     if index >= len(text):
-        index = len(text.rstrip())  # the end of the file: show the last line that says something
-    return Node(index, index + 1), f"is not YAML: {said[:120]}"
+        index = max(0, len(text.rstrip()) - 1)  # show the last line that says something
+    return Node(index, index + 1), f"is not YAML: {meaning}"
 
 
 @dataclass
@@ -221,10 +235,20 @@ class _Builder:
             elif key.text == "<<" and key.plain:
                 self.document.note(key, "merge keys are not part of YAML 1.2: write the values out, or use base")
             elif key.text in mapping.keys:
-                self.document.note(key, "stands twice; the first one is further up", key.text)
+                self.document.note(
+                    key, f"stands twice, first {self._line_of(mapping.keys[key.text])}", self._dotted(key)
+                )
             else:
                 mapping.keys[key.text], mapping.values[key.text] = key, value
         return mapping
+
+    def _line_of(self, node: Node) -> str:
+        return f"on line {self.document.text.count(chr(10), 0, node.start) + 1}"
+
+    def _dotted(self, key: Scalar) -> str:
+        """Return the dotted name of a key of the mapping that has just ended."""
+        around = [each.children[-1] for each in self.open if len(each.children) % 2]
+        return ".".join(node.text[:60] for node in (*around, key) if isinstance(node, Scalar))
 
     def _add(self, event: Any, node: Node) -> None:
         self._count(node, 1)

@@ -5,7 +5,6 @@ bogies at once), CasADi SX and rationals. A zero leading entry makes what follow
 `is_stable` then answers False; whoever needs certainty near the boundary asks the eigenvalues.
 """
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -66,7 +65,7 @@ def routh_column(p: Polynomial) -> list[Number]:
     return _chain(upper, lower)
 
 
-def sector_column(p: Polynomial, zeta: float) -> list[Number]:
+def sector_column(p: Polynomial, zeta: Number) -> list[Number]:
     """Return a chain that is positive exactly if every root of p has a damping ratio above zeta.
 
     The polynomial is turned by asin(zeta), which brings the sector's edge onto the imaginary axis; since roots come in
@@ -76,16 +75,13 @@ def sector_column(p: Polynomial, zeta: float) -> list[Number]:
     ----------
     p : tuple
         Real coefficients, lowest power first, the last one positive.
-    zeta : float
+    zeta : float or array
         Damping ratio, 0 <= zeta < 1 (a sector wider than the half-plane has no edge of this kind).
     """
-    angle = math.asin(zeta)
-    upper, lower = [], []
-    for k, a in enumerate(p[::-1]):
-        # Coefficient of z^(n-k) in p(z e^(j angle)), divided by that of z^n, times j^-k.
-        turn = complex(math.cos(k * angle), -math.sin(k * angle)) * (1, -1j, -1, 1j)[k % 4]
-        upper.append(times(turn.real, a) if k else a)
-        lower.append(times(-turn.imag, a))
+    # Coefficient of z^(n-k) in p(z e^(j asin zeta)), divided by the turn of z^n and by j^k.
+    angle = np.arcsin(zeta) + np.pi / 2
+    upper = [times(np.cos(k * angle), a) for k, a in enumerate(p[::-1])]
+    lower = [times(np.sin(k * angle), a) for k, a in enumerate(p[::-1])]
     return _chain(upper, lower[1:])
 
 
@@ -103,7 +99,7 @@ def decays_faster(p: Polynomial, sigma: Number) -> NDArray[np.bool_]:
         return is_stable(routh_column(shift(scale_variable(p, TIME_UNIT), -sigma / TIME_UNIT)))
 
 
-def damped_more(p: Polynomial, zeta: float) -> NDArray[np.bool_]:
+def damped_more(p: Polynomial, zeta: Number) -> NDArray[np.bool_]:
     """Return where all roots of p (numbers or arrays) have a damping ratio above zeta."""
     with np.errstate(all="ignore"):
         return is_stable(sector_column(scale_variable(p, TIME_UNIT), zeta))
