@@ -80,6 +80,10 @@ class Optimum(ForwardDesign):
         Whether all Hurwitz minors of eq. (10) are positive at the optimum, at every speed.
     margin_polynomial : float or None
         The margin by Routh's array of the polynomial, found by bisection: the second route.
+    before : mapping
+        Values of the design variables as written (None where not given).
+    forward : ForwardDesign
+        The forward design with the optimum's bogie.
     """
 
     optimum: Mapping[str, float | None]
@@ -93,6 +97,8 @@ class Optimum(ForwardDesign):
     modes: tuple[Mode, ...]
     hurwitz_positive: bool
     margin_polynomial: float | None
+    before: Mapping[str, float | None]
+    forward: ForwardDesign
 
 
 def optimise(
@@ -186,6 +192,8 @@ def _optimum(space: Space, forward: ForwardDesign, status: str, **own: Any) -> O
         "status": status,
         "message": MESSAGES[status],
         "design_status": forward.status,
+        "before": {name: space.problem.bogie.parameters().get(name) for name in space.names},
+        "forward": forward,
     }
     return Optimum(**{**inherited, **common, **own})
 

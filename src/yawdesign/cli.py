@@ -1,0 +1,197 @@
+"""The command line: parses, calls, prints and sets the exit code."""
+
+import json
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from yawdesign.problem import Problem
+
+DONE, NOTHING_FEASIBLE, BAD_INPUT, SOLVER_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
+
+app = typer.Typer(
+    help="Yaw damper design for motor bogies: hunting stability, curving limit and optimum.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+ProblemFile = Annotated[str, typer.Argument(metavar="PROBLEM.YAML", help="The problem file.", show_default=False)]
+AsJson = Annotated[bool, typer.Option("--json", help="Print the result as JSON, in SI units.")]
+
+
+@contextmanager
+def _mistakes_shown() -> Iterator[None]:
+    from yawdesign.problem import ProblemError
+
+    try:
+        yield
+    except ProblemError as error:
+        _tell(str(error))
+        raise typer.Exit(BAD_INPUT) from None
+    except OSError as error:
+        _tell(f"error: {error.strerror or error}: {error.filename}")
+        raise typer.Exit(BAD_INPUT) from None
+
+
+def _tell(text: str) -> None:
+    """Write a message to standard error."""
+    sys.stderr.write(text + "\n")
+
+
+def _read(path: str) -> "Problem":
+    """Return the problem of a file; warnings go to standard error."""
+    from yawdesign.problem import ProblemError, read
+
+    problem, diagnostics = read(path)
+    if problem is None:
+        raise ProblemError(diagnostics)
+    for diagnostic in diagnostics:
+        _tell(diagnostic.render())
+    return problem
+
+
+def _show(result: Any, as_json: bool, tables: str) -> None:
+    from yawdesign.output import tables as output
+
+    if as_json:
+        typer.echo(json.dumps(result.to_dict(), indent=2, allow_nan=False))
+    else:
+        output.show(getattr(output, tables)(result))
+
+
+def _code(checked: bool, feasible: bool) -> int:
+    if not checked:
+        return SOLVER_FAILED
+    return DONE if feasible else NOTHING_FEASIBLE
+
+
+@app.command()
+def stability(file: ProblemFile, as_json: AsJson = False) -> None:
+    """Tell whether the bogie is stable with its C_s, with all modes and margins."""
+    with _mistakes_shown():
+        problem = _read(file)
+        from yawdesign.stability.verdict import stability as verdict
+
+        result = verdict(problem)
+        _show(result, as_json, "stability_tables")
+    raise typer.Exit(_code(result.checked, result.stable))
+
+
+@app.command()
+def design(file: ProblemFile, as_json: AsJson = False) -> None:
+    """Find the stable yaw damping, the curve's limit and the golden section between them."""
+    with _mistakes_shown():
+        problem = _read(file)
+        from yawdesign.design.forward import design as forward
+
+        result = forward(problem)
+        _show(result, as_json, "design_tables")
+    raise typer.Exit(_code(result.checked, result.stable))
+
+
+@app.command()
+def optimise(
+    file: ProblemFile,
+    as_json: AsJson = False,
+    seed: Annotated[int, typer.Option(min=0, help="Of the search points; the answer does not depend on it.")] = 0,
+) -> None:
+    """Find the C_s, K_m and C_m (or other variables) of largest stability margin that the curve allows."""
+    with _mistakes_shown():
+        problem = _read(file)
+        with _progress() as progress:
+            from yawdesign.design.optimise import optimise as best
+
+            result = best(problem, seed=seed, progress=progress)
+        _show(result, as_json, "optimum_tables")
+    raise typer.Exit(_code(result.status != "unverified", result.status == "optimal"))
+
+
+app.command("optimize", hidden=True)(optimise)
+
+
+@contextmanager
+def _progress() -> Iterator[Any]:
+    """Show what is going on on standard error, if a person is looking."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("starting", total=1.0)
+        yield lambda text, part: bar.update(task, description=text, completed=part)
+
+
+@app.command()
+def new(
+    file: Annotated[str, typer.Argument(help="The file to write.")] = "problem.yaml",
+    kind: Annotated[str, typer.Option(help="power or trailer.")] = "power",
+    force: Annotated[bool, typer.Option("--force", help="Replace the file if it exists.")] = False,
+) -> None:
+    """Write a commented problem file to start from."""
+    from yawdesign.problem import ProblemError, starter
+
+    with _mistakes_shown():
+        if kind not in ("power", "trailer"):
+            raise ProblemError(f"--kind {kind} is not one of power, trailer")
+        path = Path(file)
+        if path.exists() and not force:
+            raise ProblemError(f"{file} exists: choose another name, or give --force to replace it")
+        _write(path, starter(kind))
+    typer.echo(f"wrote {file}; next: yawdesign optimise {file}")
+
+
+def _write(path: Path, text: str) -> None:
+    """Write a file beside its place and rename it, so that no half of it is ever there."""
+    beside = path.with_name(path.name + ".part")
+    try:
+        beside.write_text(text, encoding="utf-8")
+        beside.replace(path)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+@app.command()
+def check(file: ProblemFile) -> None:
+    """List every mistake of a problem file, and doubtful values."""
+    with _mistakes_shown():
+        _read(file)
+    typer.echo(f"{file}: no errors")
+
+
+@app.command()
+def schema() -> None:
+    """Print the JSON Schema of the problem file, for editors."""
+    from yawdesign.problem import schema as problem_schema
+
+    typer.echo(json.dumps(problem_schema(), indent=2, ensure_ascii=False))
+
+
+@app.callback(invoke_without_command=True)
+def _version(
+    version: Annotated[bool, typer.Option("--version", help="Print the version.", is_eager=True)] = False,
+) -> None:
+    if version:
+        from yawdesign import __version__
+
+        typer.echo(f"yawdesign {__version__}")
+        raise typer.Exit
+
+
+def main() -> None:
+    """Run the command line; Ctrl-C ends it without a traceback."""
+    try:
+        app()
+    except KeyboardInterrupt:
+        _tell("interrupted")
+        sys.exit(INTERRUPTED)
+
+
+if __name__ == "__main__":
+    main()

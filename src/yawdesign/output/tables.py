@@ -1,0 +1,170 @@
+"""Results as tables for a terminal; nothing is computed here."""
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from rich.console import Console, Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from yawdesign.problem import PARAMETERS, format_quantity
+
+if TYPE_CHECKING:
+    from yawdesign.design.forward import ForwardDesign
+    from yawdesign.design.optimise import Optimum
+    from yawdesign.stability.verdict import Mode, Stability
+
+DAMPING = "kN·s/m"
+SHOWN = 10  # sensitivities
+
+
+def _table(title: str, *columns: str) -> Table:
+    table = Table(title=title, title_justify="left", title_style="bold")
+    for k, column in enumerate(columns):
+        table.add_column(column, justify="left" if k == 0 else "right")
+    return table
+
+
+def damping(value: float | None) -> str:
+    """Return a damping with its unit."""
+    return "none" if value is None else format_quantity(value, DAMPING)
+
+
+def margin(value: float | None, objective: str) -> str:
+    """Return a margin with its unit."""
+    if value is None:
+        return "not given"
+    return f"{value:.6g} 1/s" if objective == "decay_rate" else f"{100 * value:.5g} %"
+
+
+def speed(value: float) -> str:
+    """Return a speed in km/h."""
+    return format_quantity(value, "km/h")
+
+
+def _facts(title: str, rows: Iterable[tuple[str, str]]) -> Table:
+    table = Table(title=title, title_justify="left", title_style="bold", show_header=False)
+    for name, value in rows:
+        table.add_row(name, value)
+    return table
+
+
+def _modes(modes: Iterable["Mode"]) -> Table:
+    table = _table("Modes, least damped first", "frequency [Hz]", "damping ratio [%]", "decay rate [1/s]")
+    for mode in modes:
+        frequency = f"{mode.frequency:.3f}" if mode.frequency else "no oscillation"
+        table.add_row(frequency, f"{100 * mode.damping_ratio:.2f}", f"{mode.decay_rate:.4g}")
+    return table
+
+
+def _checked(checked: bool) -> str:
+    return "yes, by two independent ways" if checked else "NO: the two ways differ"
+
+
+def stability_tables(result: "Stability") -> RenderableType:
+    """Return the tables of a `Stability`."""
+    verdict = Text("stable", "bold green") if result.stable else Text("UNSTABLE", "bold red")
+    facts = _facts(
+        f"Stability at {speed(result.speed)} with C_s = {damping(result.C_s)}",
+        [
+            ("spectral abscissa, all modes", f"{result.spectral_abscissa:.6g} 1/s"),
+            ("decay rate, modes the design moves", margin(result.decay_rate, "decay_rate")),
+            ("damping ratio, modes the design moves", margin(result.damping_ratio, "damping_ratio")),
+            ("checked", _checked(result.checked)),
+        ],
+    )
+    return Group(Text("The bogie is ").append_text(verdict).append("."), facts, _modes(result.modes))
+
+
+def design_tables(result: "ForwardDesign") -> RenderableType:
+    """Return the tables of a `ForwardDesign`."""
+    return Group(_design_facts(result), *_critical(result), *_sensitivities(result))
+
+
+def _interval(low: float, high: float) -> str:
+    return f"{damping(low)} ... " + ("no limit" if high == float("inf") else damping(high))
+
+
+def _design_facts(result: "ForwardDesign") -> Table:
+    stable = [("stable at every speed for C_s in", _interval(*i)) for i in result.stable_intervals]
+    load = {"axle": " (Q = W, the axle load)", "wheel": " (Q = W/2, the wheel load)", None: ""}[result.load]
+    rows = [
+        *(stable or [("stable at every speed for C_s in", "none")]),
+        ("C_sl, lower end of the stable interval", damping(result.C_sl)),
+        (f"C_su, limit of the curve{load}", damping(result.C_su)),
+        ("C_s, golden section", damping(result.C_s)),
+        ("is that C_s stable", "yes" if result.stable else "no"),
+    ]
+    if result.rotational_resistance is not None:
+        rows.append(("rotational resistance T/(4Qa)", f"{result.rotational_resistance:.5f}"))
+    rows += [("answer", f"{result.status}: {result.message}"), ("checked", _checked(result.checked))]
+    return _facts("Forward design of the yaw damper", rows)
+
+
+def _critical(result: "ForwardDesign") -> list[Table]:
+    if not result.critical:
+        return []
+    table = _table("Critical values", "C_s", "frequency [Hz]", "above it the bogie is", "speed")
+    for x in result.critical:
+        becomes = {"neither": "still unstable"}.get(x.becomes, x.becomes)
+        table.add_row(damping(x.C_s), f"{x.omega / 6.283185307179586:.4f}", becomes, speed(x.speed))
+    return [table]
+
+
+def _sensitivities(result: "ForwardDesign") -> list[Table]:
+    if not result.sensitivity:
+        return []
+    table = _table("What moves C_sl most: change in % for 1 %", "parameter", "d ln C_sl / d ln p", "meaning")
+    largest = sorted(result.sensitivity.items(), key=lambda item: -abs(item[1]))[:SHOWN]
+    for name, value in largest:
+        meaning = PARAMETERS[name].meaning if name in PARAMETERS else "running speed"
+        table.add_row(name, f"{value:+.2f}", Text(meaning, justify="left"))
+    return [table]
+
+
+def optimum_tables(result: "Optimum") -> RenderableType:
+    """Return the tables of an `Optimum`."""
+    if result.margin is None:
+        return Text(f"{result.status}: {result.message}")
+    own = [_optimum_facts(result), _bounds(result), _modes(result.modes), _fixed(result)]
+    return Group(*own, design_tables(result.forward))
+
+
+def _optimum_facts(result: "Optimum") -> Table:
+    name = {"decay_rate": "least decay rate", "damping_ratio": "least damping ratio"}[result.objective]
+    rows = [
+        (f"{name}, before", margin(result.margin_before, result.objective)),
+        (f"{name}, optimum", margin(result.margin, result.objective)),
+        ("the same by Routh's array", margin(result.margin_polynomial, result.objective)),
+        ("Hurwitz minors all positive", "yes" if result.hurwitz_positive else "no"),
+        ("active limits", ", ".join(result.active) or "none: the optimum is inside its bounds"),
+        ("answer", f"{result.status}: {result.message}"),
+    ]
+    if result.rotational_resistance is not None:
+        rows.insert(4, ("rotational resistance T/(4Qa)", f"{result.rotational_resistance:.5f}"))
+    return _facts("Optimum", rows)
+
+
+def _bounds(result: "Optimum") -> Table:
+    table = _table("Design variables", "variable", "before", "optimum", "min", "max", "place between the bounds")
+    for name, bound in result.bounds.items():
+        unit = PARAMETERS[name].unit
+        before = result.before[name]
+        shown = "not given" if before is None else format_quantity(before, unit)
+        cells = [format_quantity(value, unit) for value in (bound.value, bound.min, bound.max)]
+        table.add_row(name, shown, *cells, f"{100 * bound.position:.1f} %")
+    return table
+
+
+def _fixed(result: "Optimum") -> Table:
+    table = _table("Modes that no design variable moves", "motion", "decay rate [1/s]", "frequency [Hz]")
+    for name, roots in result.fixed_modes.items():
+        for s in roots:
+            if s.imag >= 0:
+                table.add_row(name, f"{-s.real:.4f}", f"{s.imag / 6.283185307179586:.3f}")
+    return table
+
+
+def show(table: RenderableType) -> None:
+    """Print tables on standard output."""
+    Console().print(table)
