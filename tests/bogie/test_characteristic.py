@@ -5,8 +5,11 @@ import flint
 import numpy as np
 import pytest
 
+from yawdesign.bogie.assembly import StateSpace, physical, polynomial_matrix
 from yawdesign.bogie.characteristic import characteristic, paper_coefficients
+from yawdesign.bogie.elements import Mass
 from yawdesign.bogie.polynomials import evaluate, scale_variable
+from yawdesign.bogie.vehicles import bogie
 from yawdesign.stability.modes import state_matrix
 
 
@@ -123,6 +126,43 @@ def test_equals_the_determinant_of_matrix_7_in_floating_point(random_bogies):
         ratio = np.linalg.det(matrix / size[:, None]) / (value / np.prod(size))
         worst = max(worst, abs(ratio - 1))
     assert worst < 1e-10
+
+
+COORDINATES = ("y_b", "phi_b", "y_w1", "phi_w1", "y_w2", "phi_w2", "y_m1", "phi_m1", "y_m2", "phi_m2")
+
+
+def our_compliance(p, C_s, s, model):
+    """Return the displacements that unit forces cause, by the polynomial matrix and by the state matrix."""
+    elements = physical(bogie({**p, "C_s": C_s}, **model))
+    system, entries = StateSpace(elements), polynomial_matrix(elements)
+    rows = list(dict.fromkeys([*system.coordinates, *(i for i, _ in entries)]))
+    matrix = np.zeros((len(rows), len(rows)), dtype=complex)
+    for (i, j), polynomial in entries.items():
+        matrix[rows.index(i), rows.index(j)] = evaluate(polynomial, s)
+    order = [system.coordinates.index(x) for x in COORDINATES if x in system.coordinates]
+    masses = {e.coordinate: e.m for e in elements if isinstance(e, Mass)}
+    n = len(masses)
+    push = np.zeros((system.size, n))
+    push[n : 2 * n] = np.diag([1 / masses[x] for x in system.coordinates])
+    state = np.linalg.solve(s * np.eye(system.size) - system.fill(np.zeros((system.size,) * 2)), push)
+    pick = np.ix_(order, order)
+    return np.linalg.inv(matrix)[pick], state[pick]
+
+
+def test_displacements_under_forces_are_those_of_matrix_7(table1, model, random_bogies):
+    # The determinant does not see the sign of a displacement; responses do.
+    rng = np.random.default_rng(13)
+    for p in [table1, *(q for q, _ in random_bogies(10, seed=13))]:
+        C_s, s = 10 ** rng.uniform(4, 7), complex(*rng.normal(scale=50, size=2))
+        n = 10 if model["kind"] == "power" else 6
+        expected = np.linalg.inv(np.array(paper_matrix(p, C_s, s, **model)))[:n, :n]
+        size = np.sqrt(np.abs(np.outer(expected.diagonal(), expected.diagonal())))
+        for found in our_compliance(p, C_s, s, model):
+            assert np.max(np.abs(found - expected) / size) < 1e-9
+
+
+def test_without_yaw_damping_there_is_no_yaw_damper(table1):
+    assert StateSpace(physical(bogie(table1))).size == 24
 
 
 def test_chi_are_27_and_the_last_does_not_know_the_damper(table1, model):

@@ -110,7 +110,9 @@ def design(problem: Problem) -> ForwardDesign:
     C_s = _golden(interval) if checked else None
     C_sl = interval[0] if interval else (stable[0][0] if stable else None)
     return ForwardDesign(
-        critical=tuple(_at_speed(x, case.speed) for sets, case in zip(found, cases, strict=True) for x in sets.critical),
+        critical=tuple(
+            _at_speed(x, case.speed) for sets, case in zip(found, cases, strict=True) for x in sets.critical
+        ),
         stable_intervals=stable,
         C_sl=C_sl,
         C_su=upper,

@@ -18,13 +18,15 @@ from yawdesign.stability.hurwitz import hurwitz_minors
 from yawdesign.stability.routh import TIME_UNIT
 from yawdesign.stability.verdict import Mode, Stability, stability_at
 
-NLP_STARTS = 6
-AGREE = 1e-6  # how close the margins by two routes must be, relative
+TURNS = ((6, 1e-3), (2, 1e-5))  # number of starts of the NLP, radius of the refinement after it
+# How close the margins by two routes must be. Where two roots coalesce, as they do at many optima, an eigenvalue is
+# right to 1e-8 of its own modulus only; a hunting mode's is 10 ... 30 rad/s.
+AGREE = {"decay_rate": 2e-5, "damping_ratio": 1e-6}
 ACTIVE = 1e-4  # a variable within this share of its range from a bound stands at the bound
 
 MESSAGES = {
     "optimal": "best design found within the bounds and the curve's limit",
-    "unstable": "no design within the bounds is stable: lower the speed, widen the bounds, or let other parameters vary",
+    "unstable": "no design within the bounds is stable: lower the speed, widen the bounds or vary other parameters",
     "infeasible": "no design within the bounds keeps the curve's limit: lower the bounds of C_s, allow a larger radius "
     "or limit, or let other parameters vary",
     "unverified": "the margin by eigenvalues and by Routh's array differ: do not use this result",
@@ -135,19 +137,21 @@ def optimise(
     return _answer(space, _best(space, found, seed, options or {}, progress))
 
 
-def _best(space: Space, found: Float, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
-    """Return the best point after IPOPT and a last polish by verdicts."""
-    candidates = [found]
-    for k in range(min(NLP_STARTS, found.shape[1])):
-        progress("solving the NLP", k / NLP_STARTS)
-        start = found[:, k]
-        reached = improve(space, start, float(space.margins_at(start[:, None])[0]), options)
-        candidates += [y[:, None] for y in reached if np.all(np.isfinite(y))]
-    x = np.concatenate(candidates, axis=1)
-    margin = space.margins_at(x)
-    order = np.argsort(-margin, kind="stable")[:2]
-    rng = np.random.default_rng(seed)
-    return refine(space, x[:, order], margin[order], rng, radius=1e-4, until=1e-11)[:, 0]
+def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
+    """Return the best point after IPOPT and refinement in turn: each leaves the ridges on which the other stops."""
+    rng, margin = np.random.default_rng(seed), space.margins_at(x)
+    for turn, (starts, radius) in enumerate(TURNS):
+        progress("solving the NLP", turn / len(TURNS))
+        reached = [
+            y for k in range(min(starts, x.shape[1])) for y in improve(space, x[:, k], float(margin[k]), options)
+        ]
+        reached = [y[:, None] for y in reached if np.all(np.isfinite(y))]
+        x = np.concatenate([x, *reached], axis=1)
+        margin = space.margins_at(x)
+        order = np.argsort(-margin, kind="stable")[:4]
+        x = refine(space, x[:, order], margin[order], rng, radius=radius, until=1e-11, rounds=30)
+        margin = space.margins_at(x)
+    return x[:, 0]
 
 
 def _answer(space: Space, x: Float) -> Optimum:
@@ -157,7 +161,7 @@ def _answer(space: Space, x: Float) -> Optimum:
     worst = _worst(space, values)
     final = space.problem.replace(**values)
     forward = design(final)
-    agree = abs(second - margin) <= AGREE * max(abs(margin), 1e-3)
+    agree = abs(second - margin) <= AGREE[space.problem.design.objective]
     status = "unverified" if not agree else ("optimal" if worst.stable else "unstable")
     bounds = {name: _bound(space, name, values[name]) for name in space.names}
     return _optimum(
@@ -222,8 +226,8 @@ def _worst(space: Space, values: Mapping[str, float]) -> Stability:
 def _bisect(space: Space, values: Mapping[str, float], margin: float) -> float:
     """Return the margin by Routh's array, looked for around the one by eigenvalues."""
     if space.problem.design.objective == "damping_ratio" and margin <= 0:
-        return margin if not space.beats(dict(values), 0.0) else np.nan  # the sector's scheme ends at zero
-    width = 1e-3 * max(abs(margin), 1e-3)
+        return float("nan") if space.beats(dict(values), 0.0) else margin  # the sector's scheme ends at zero
+    width = 100 * AGREE[space.problem.design.objective]
     low, high = margin - width, margin + width
     if not space.beats(dict(values), low) or space.beats(dict(values), high):
         return float("nan")

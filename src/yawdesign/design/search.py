@@ -14,7 +14,7 @@ from scipy.stats import qmc
 
 from yawdesign.design.space import Float, Space
 
-BLOCK = 6000  # points at once: their coefficients stay in the cache
+BLOCK = 20_000  # points at once: enough to hide Python's overhead, few enough for any memory
 CELLS = 6  # cells per axis, each with a best point of its own
 STARTS = 20  # cells that are refined
 OTHERS = 4900  # points in the variables other than C_s
@@ -33,7 +33,7 @@ class _Cells:
     def index(self, x: Float) -> NDArray[np.intp]:
         """Return the cell of each point; only the first three variables are divided."""
         cells = np.minimum((x[:3] * CELLS).astype(int), CELLS - 1)
-        return np.ravel_multi_index(tuple(cells), (CELLS,) * len(cells)).astype(np.intp)
+        return np.asarray(np.ravel_multi_index(tuple(cells), (CELLS,) * len(cells)))
 
     def offer(self, x: Float, margin: Float) -> None:
         """Keep those points that are better than their cell's best."""
@@ -106,20 +106,23 @@ def refine(
     *,
     radius: float = 0.03,
     until: float = 1e-5,
+    rounds: int = 40,
     points: int = 192,
     progress: Progress = lambda text, part: None,
 ) -> Float:
     """Return points improved by shrinking random stencils, all at once, the best first.
 
-    Each point has a radius of its own, which grows with success and shrinks without. Half of a stencil follows the
+    Each point has a radius of its own, which grows with success and shrinks without, until it is small enough or the
+    rounds are over. Half of a stencil follows the
     last successful step, which is how it walks along a ridge. Points that have come close to a better one are dropped.
     """
     d, n = x.shape
     x, margin, size, step = x.copy(), margin.copy(), np.full(n, radius), np.zeros((d, n))
-    start = np.log(radius / until)
-    while n and (alive := size > until).any():
-        progress("refining the best designs", 1 - np.log(size.max() / until) / start)
-        k = np.flatnonzero(alive)
+    for count in range(rounds):
+        k = np.flatnonzero(size > until)
+        if not k.size:
+            break
+        progress("refining the best designs", count / rounds)
         trial = _stencil(x[:, k], size[k], step[:, k], points, rng)
         better, value = _best_of(space, trial, margin[k])
         won = value > margin[k]
@@ -127,7 +130,7 @@ def refine(
         x[:, k], margin[k] = np.where(won, better, x[:, k]), np.where(won, value, margin[k])
         size[k] = np.where(won, np.minimum(1.5 * size[k], 0.2), 0.7 * size[k])
         keep = _distinct(x, margin, size)
-        x, margin, size, step, n = x[:, keep], margin[keep], size[keep], step[:, keep], len(keep)
+        x, margin, size, step = x[:, keep], margin[keep], size[keep], step[:, keep]
     return x[:, np.argsort(-margin, kind="stable")]
 
 
@@ -153,7 +156,7 @@ def _best_of(space: Space, trial: Float, level: Float) -> tuple[Float, Float]:
 
 
 def _distinct(x: Float, margin: Float, size: Float) -> NDArray[np.intp]:
-    """Return the points to go on with: none that lies within its reach of a better one, nor ten per cent behind late."""
+    """Return the points to go on with: none close to a better one, none ten per cent behind late."""
     keep: list[int] = []
     for k in np.argsort(-margin, kind="stable"):
         near = any(np.max(np.abs(x[:, k] - x[:, j])) < max(size[k], 1e-3) for j in keep)

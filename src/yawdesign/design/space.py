@@ -93,14 +93,15 @@ class Space:
             if name == "C_s" and self.curve is not None:
                 high = float(np.clip(curving_limit(known, self.curve), low, high))
             out.append(fraction(low, high, float(values[name])))
-        return np.clip(np.array(out), 0, 1)
+        return np.asarray(np.clip(np.array(out), 0, 1))
 
     def feasible(self, values: Values) -> NDArray[np.bool_]:
         """Return where the curve's limit is kept (within rounding)."""
         if self.curve is None:
             return np.asarray(True)
         T = resisting_moment(values, values["C_s"], self.curve)
-        return np.asarray(T <= self.curve.limit * resistance_scale(values, self.curve) * (1 + 1e-12))
+        allowed = self.curve.limit * resistance_scale(values, self.curve)
+        return np.asarray(allowed * (1 + 1e-12) >= T)
 
     def beats(self, values: Values, level: Float | float) -> NDArray[np.bool_]:
         """Return where the margin exceeds a level, by Routh's array in every condition; a ratio below zero as zero."""
@@ -119,7 +120,8 @@ class Space:
         worst = np.asarray(np.inf)
         for case in self.cases:
             p = case.applied(values)
-            worst = np.minimum(worst, measure(np.linalg.eigvals(core_matrix(p, values["C_s"], **self.model))))
+            s = np.asarray(np.linalg.eigvals(core_matrix(p, values["C_s"], **self.model)), dtype=complex)
+            worst = np.minimum(worst, measure(s))
             for factor in (characteristic(p, **self.model).factors[name] for name in self.movable):
                 worst = np.minimum(worst, measure(quadratic_roots(factor)))
         return np.where(self.feasible(values), worst, -np.inf)

@@ -1,4 +1,4 @@
-"""Is the bogie of a problem stable, and by what margin?"""
+"""Whether the bogie of a problem is stable, and by what margin."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
@@ -133,7 +133,9 @@ def stability_at(p: Parameters, C_s: float, variables: Collection[str] = (), *, 
     c = characteristic(p, kind=kind, equations=equations)
     s = eigenvalues(state_matrix(p, C_s, kind=kind, equations=equations))
     fixed = fixed_factors(p, variables, kind=kind, equations=equations)
-    moved = np.concatenate([core_values(p, C_s, kind, equations), *(roots(c.factors[n]) for n in c.factors if n not in fixed)])
+    moved = np.concatenate(
+        [core_values(p, C_s, kind, equations), *(roots(c.factors[n]) for n in c.factors if n not in fixed)]
+    )
     unstable = int(np.sum(s.real >= 0))
     whole = c.full(C_s)
     agree = _count(c, C_s) == unstable and bool(np.all(backward_error(whole, s) < EXACT))
@@ -160,7 +162,9 @@ def core_values(p: Parameters, C_s: float, kind: str, equations: str) -> Complex
 def modes(s: Complex) -> tuple[Mode, ...]:
     """Return one Mode for each real eigenvalue and each conjugate pair."""
     upper = s[s.imag >= 0]
-    return tuple(Mode(float(x.imag / (2 * np.pi)), float(-x.real / abs(x)) if x else 0.0, float(-x.real)) for x in upper)
+    return tuple(
+        Mode(float(x.imag / (2 * np.pi)), float(-x.real / abs(x)) if x else 0.0, float(-x.real)) for x in upper
+    )
 
 
 def _count(c: Characteristic, C_s: float) -> int:

@@ -1,0 +1,136 @@
+"""The command line: exit codes, JSON by the contract, messages, and what is not imported."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from yawdesign.cli import app
+
+PROBLEMS = Path(__file__).parents[1] / "problems"
+RUN = CliRunner()
+DESIGN_KEYS = {"critical", "stable_intervals", "C_sl", "C_su", "C_s", "status", "stable", "sensitivity"}
+
+
+def run(*arguments):
+    return RUN.invoke(app, [str(a) for a in arguments])
+
+
+def answer(*arguments, code=0):
+    result = run(*arguments, "--json")
+    assert result.exit_code == code, result.output
+    return json.loads(result.stdout)
+
+
+def test_stability_json():
+    data = answer("stability", PROBLEMS / "table1.yaml")
+    assert set(data) >= {"stable", "spectral_abscissa", "decay_rate", "damping_ratio", "eigenvalues", "C_s", "speed"}
+    assert data["spectral_abscissa"] == pytest.approx(-1.2985370178, rel=1e-9)
+    assert len(data["eigenvalues"]) == 25
+    assert data["stable"] is True
+
+
+def test_design_json():
+    data = answer("design", PROBLEMS / "table1.yaml")
+    assert set(data) >= DESIGN_KEYS
+    assert data["C_sl"] == pytest.approx(90702.88978, rel=1e-9)
+    assert data["stable_intervals"][0][1] is None
+    assert data["critical"][0].keys() >= {"C_s", "omega", "becomes"}
+
+
+def test_optimise_json_and_alias(tmp_path):
+    text = (PROBLEMS / "table1.yaml").read_text()
+    file = tmp_path / "one.yaml"
+    file.write_text(text[: text.index("  variables:")] + "  variables:\n    C_s: {min: 10 kN s/m, max: 10 MN s/m}\n")
+    data = answer("optimize", file)
+    keys = {"optimum", "objective", "margin", "margin_before", "active", "rotational_resistance", "fixed_modes"}
+    assert set(data) >= keys | DESIGN_KEYS
+    assert set(data["optimum"]) == {"C_s", "K_m", "C_m"}
+    assert data["margin"] > data["margin_before"]
+
+
+def test_tables_are_printed():
+    text = run("design", PROBLEMS / "trailer-bogie.yaml").stdout
+    assert "440.662 kN·s/m" in text
+    assert "Q = W" in text
+    assert "UNSTABLE" not in run("stability", PROBLEMS / "table1.yaml").stdout
+
+
+def changed(tmp_path, old, new):
+    file = tmp_path / "changed.yaml"
+    text = (PROBLEMS / "table1.yaml").read_text()
+    assert old in text
+    file.write_text(text.replace(old, new))
+    return file
+
+
+def test_unstable_is_exit_code_1(tmp_path):
+    file = changed(tmp_path, "C_s: 1 000 kN·s/m", "C_s: 50 kN·s/m   ")
+    assert answer("stability", file, code=1)["stable"] is False
+
+
+def test_no_design_is_exit_code_1(tmp_path):
+    file = changed(tmp_path, "limit: 0.08", "limit: 0.001")
+    data = answer("design", file, code=1)
+    assert data["C_s"] is None
+    assert data["status"].startswith("infeasible")
+
+
+def test_missing_damping_is_bad_input(tmp_path):
+    result = run("stability", changed(tmp_path, "  C_s: 1 000 kN·s/m", "  # "))
+    assert result.exit_code == 2
+    assert "C_s is missing" in result.stderr
+
+
+@pytest.mark.parametrize("command", ["stability", "design", "optimise", "check"])
+def test_bad_input_is_exit_code_2(tmp_path, command):
+    file = changed(tmp_path, "K_1x: 40 MN/m", "K_1x: -40 MN/m")
+    result = run(command, file)
+    assert result.exit_code == 2
+    assert "changed.yaml:" in result.stderr
+    assert "bogie.K_1x" in result.stderr
+    assert result.stdout == ""
+    assert run(command, tmp_path / "missing.yaml").exit_code == 2
+    assert run(command, tmp_path).exit_code == 2
+
+
+def test_usage_error_is_exit_code_2():
+    assert run("design").exit_code == 2
+    assert run("desing").exit_code == 2
+
+
+def test_new_check_and_force(tmp_path):
+    for kind in ("power", "trailer"):
+        file = tmp_path / f"{kind}.yaml"
+        assert run("new", file, "--kind", kind).exit_code == 0
+        assert run("check", file).exit_code == 0
+    before = file.read_text()
+    refused = run("new", file)
+    assert refused.exit_code == 2
+    assert "--force" in refused.stderr
+    assert file.read_text() == before
+    assert run("new", file, "--force").exit_code == 0
+    assert file.read_text() != before
+    assert run("new", tmp_path / "no" / "such" / "folder.yaml").exit_code == 2
+    assert run("new", tmp_path / "x.yaml", "--kind", "wagon").exit_code == 2
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["power.yaml", "trailer.yaml"]
+
+
+def test_schema_is_json():
+    assert json.loads(run("schema").stdout)["$schema"]
+
+
+def test_help_is_light():
+    """--help must answer at once: none of the heavy libraries is imported."""
+    code = (
+        "import sys\nfrom yawdesign.cli import app\n"
+        "try: app(['--help'])\nexcept SystemExit: pass\n"
+        "heavy = {'casadi', 'numpy', 'scipy', 'matplotlib'} & set(sys.modules)\n"
+        "sys.exit(f'imported {heavy}' if heavy else 0)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "optimise" in done.stdout

@@ -1,0 +1,48 @@
+"""The public namespace: complete, documented, and deaf to the rooms' names."""
+
+import dataclasses
+import importlib
+import inspect
+import pickle
+
+import numpy as np
+import pytest
+
+import yawdesign as yd
+
+
+def test_functions_keep_their_names_after_their_rooms_are_imported():
+    for room in ("yawdesign.design.optimise", "yawdesign.stability.critical"):
+        importlib.import_module(room)
+    assert callable(yd.design)
+    assert callable(yd.stability)
+    assert set(yd.__all__) <= set(dir(yd))
+
+
+def test_unknown_name():
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        _ = yd.nothing
+
+
+@pytest.mark.parametrize("name", yd.__all__)
+def test_public_names_document_their_arguments(name):
+    public = getattr(yd, name)
+    if not callable(public):
+        return
+    text = inspect.getdoc(public)
+    assert text
+    if issubclass(public, Exception) if inspect.isclass(public) else False:
+        return
+    inherited = "".join(inspect.getdoc(base) or "" for base in public.__mro__[1:]) if inspect.isclass(public) else ""
+    for argument in inspect.signature(public).parameters:
+        assert argument.strip("*") in text + inherited, f"{name} does not document {argument}"
+
+
+def test_results_are_plain_data_and_readable():
+    result = yd.stability(yd.table1())
+    assert pickle.loads(pickle.dumps(result)) == result
+    assert "spectral_abscissa" in repr(result)
+    assert result.to_dict()["eigenvalues"][0] == [result.eigenvalues[0].real, result.eigenvalues[0].imag]
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        result.stable = False
+    assert np.isclose(result.damping_ratio, min(m.damping_ratio for m in result.modes))
