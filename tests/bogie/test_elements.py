@@ -116,6 +116,12 @@ def test_ends_mirror_their_levers():
     assert rear[0].displacement == {"Y": 1, "y2": -1, "tilt": -0.4, "P": -1.25}
 
 
+def test_a_link_is_found_by_its_name():
+    for arrange, suffixes in ((physical, "12"), (folded, "+-")):
+        names = [e.name for e in arrange([pair()]) if isinstance(e, Link) and e.name]
+        assert names == [f"box{suffix}" for suffix in suffixes]
+
+
 def test_a_folded_pair_has_the_physical_determinant_and_eigenvalues():
     elements = [*frame(), pair()]
     whole, halves = trim(determinant(physical(elements))), trim(determinant(folded(elements)))

@@ -103,7 +103,7 @@ def test_golden_section_lies_in_a_stable_interval_when_several():
     assert result.status == "partly unstable"
     assert result.C_sl == pytest.approx(378999.312530699, rel=1e-8)
     assert result.stable
-    limited = yd.design(named("fm3.28_Cm_fixed").replace(curve=yd.Curve(R=300, L=19, l=60, V_r=25, limit=0.02)))
+    limited = yd.design(named("fm3.28_Cm_fixed").replace(curve=yd.Curve(R=300, L=19, l=60, V_r=25, limit=0.0355)))
     assert limited.C_su < 378999
     assert limited.C_sl == pytest.approx(9080.14177996431, rel=1e-8)
     assert limited.C_sl < limited.C_s < 184043

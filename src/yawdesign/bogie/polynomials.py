@@ -120,8 +120,8 @@ class Determinant:
 
     The determinant is the sum over all ways to cover the nodes of the matrix's graph by cycles. A node is taken out,
     the rest falls apart into pieces, and each piece contributes its own determinant or the cycles that lead through it
-    and the node. For a tree this is the recursion from the leaves to the root: the work grows with the number of nodes, and
-    with the signs that springs and dampers have, nothing cancels.
+    and the node. For a tree this is the recursion from the leaves to the root: the work grows with the number of nodes,
+    and with the signs that springs and dampers have, nothing cancels.
 
     Parameters
     ----------

@@ -211,7 +211,7 @@ def _margin_before(space: Space) -> float | None:
 
 def _worst_margin(space: Space, values: Mapping[str, float]) -> float:
     results = [_at(space, values, k) for k in range(len(space.cases))]
-    return min(getattr(result, space.problem.design.objective) for result in results)
+    return float(min(getattr(result, space.problem.design.objective) for result in results))
 
 
 def _at(space: Space, values: Mapping[str, float], k: int) -> Stability:

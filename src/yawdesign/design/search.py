@@ -84,7 +84,7 @@ def _blocks(space: Space, rng: np.random.Generator) -> Iterator[Float]:
         # Every line has its own phase, so that together they miss no damping.
         steps = (np.arange(line) + rng.random((block.shape[1], 1))) / line
         wide = np.broadcast_to(block[:, :, None], (others, *steps.shape))
-        yield np.concatenate([wide.reshape(others, -1), steps.reshape(1, -1)])
+        yield np.concatenate([wide.reshape(others, steps.size), steps.reshape(1, -1)])
 
 
 def _others(d: int, total: int, rng: np.random.Generator) -> Float:
