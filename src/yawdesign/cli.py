@@ -178,9 +178,9 @@ def _version(
     version: Annotated[bool, typer.Option("--version", help="Print the version.", is_eager=True)] = False,
 ) -> None:
     if version:
-        from yawdesign import __version__
+        from importlib.metadata import version as installed
 
-        typer.echo(f"yawdesign {__version__}")
+        typer.echo(f"yawdesign {installed('yawdesign')}")
         raise typer.Exit
 
 

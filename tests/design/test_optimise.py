@@ -122,3 +122,11 @@ def test_missing_damping_is_an_error():
     problem = problem_of("decay_rate", "reciprocal", K_m=yd.Variable(min=1e5, max=1e6)).replace(C_s=None)
     with pytest.raises(yd.ProblemError, match="C_s is missing"):
         yd.optimise(problem)
+
+
+def test_a_motor_without_damper_lowers_the_degree():
+    problem = problem_of("decay_rate", "reciprocal", C_s=yd.Variable(min=1e4, max=1e7)).replace(C_m=0)
+    result = yd.optimise(problem)
+    assert result.status == "optimal"
+    assert result.hurwitz_positive
+    assert result.checked

@@ -25,7 +25,7 @@ def test_every_minor_of_table_1(table1, model, rational, C_s):
     signs, logarithms = hurwitz_minors(paper_coefficients(table1, C_s, **model, unit=100.0))
     expected = exact_minors(paper_coefficients(rational(table1), flint.fmpq(int(C_s)), **model))
     assert signs == expected[0]
-    assert logarithms == pytest.approx(expected[1], abs=1e-6)
+    assert logarithms == pytest.approx(expected[1], abs=1e-10)
     assert all(s > 0 for s in signs) == (C_s == 1e6)
 
 

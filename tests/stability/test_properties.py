@@ -12,7 +12,7 @@ from yawdesign.stability.modes import core_matrix, state_matrix
 MODELS = st.sampled_from([("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal")]).map(
     lambda m: {"kind": m[0], "equations": m[1]}
 )
-few = settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+few = settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 sizes = st.floats(-4, 4).map(lambda x: 10**x)
 seeds = st.integers(0, 10**6)
 FORCES = ("M_", "J_", "W", "K_", "C_", "f_")

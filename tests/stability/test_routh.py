@@ -27,14 +27,14 @@ def all_roots(root_set):
     return [complex(x) for x in root_set[0]] + [complex(x, y) for x, y in root_set[1]]
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=200, deadline=None)
 @given(root_sets)
 def test_verdict_is_that_of_the_roots(root_set):
     s = np.array(all_roots(root_set))
     assert decays_faster(polynomial(root_set), 0.0) == bool(np.all(s.real < 0))
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=200, deadline=None)
 @given(root_sets, st.floats(-200, 200))
 def test_decay_rate(root_set, sigma):
     slowest = -max(s.real for s in all_roots(root_set))
@@ -42,7 +42,7 @@ def test_decay_rate(root_set, sigma):
         assert decays_faster(polynomial(root_set), sigma) == (slowest > sigma)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=200, deadline=None)
 @given(root_sets, st.floats(0, 0.95))
 def test_damping_ratio(root_set, zeta):
     least = min(-s.real / abs(s) for s in all_roots(root_set))

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from yawdesign.bogie.characteristic import paper_coefficients
+from yawdesign.bogie.polynomials import trim
 from yawdesign.design.conditions import conditions, model
 from yawdesign.design.curving import rotational_resistance
 from yawdesign.design.forward import ForwardDesign, design
@@ -261,5 +262,6 @@ def _hurwitz_positive(space: Space, values: Mapping[str, float]) -> bool:
     positive = True
     for case in conditions(space.problem):
         chi = paper_coefficients(case.applied(values), values["C_s"], unit=TIME_UNIT, **model(space.problem))
+        chi = trim(chi[::-1])[::-1]  # a damper without damping lowers the degree
         positive &= all(sign > 0 for sign in hurwitz_minors(chi)[0])
     return bool(positive)

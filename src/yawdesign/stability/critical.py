@@ -122,8 +122,8 @@ def crossings(c: Characteristic) -> list[tuple[float, float]]:
 
 def _phase(c: Characteristic, omega: Float) -> Float:
     """Return the sine of the angle between A(j w) and B(j w)."""
-    product = evaluate(c.A, 1j * omega) * np.conj(evaluate(c.B, 1j * omega))
-    return np.asarray(product.imag / np.abs(product))
+    ratio = evaluate(c.A, 1j * omega) / evaluate(c.B, 1j * omega)
+    return np.asarray(ratio.imag / np.abs(ratio))
 
 
 def _candidates(c: Characteristic) -> list[float]:

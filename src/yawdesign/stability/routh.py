@@ -5,6 +5,7 @@ bogies at once), CasADi SX and rationals. A zero leading entry makes what follow
 `is_stable` then answers False; whoever needs certainty near the boundary asks the eigenvalues.
 """
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -17,7 +18,7 @@ TIME_UNIT = 100.0  # rad/s; in this unit a bogie's coefficients span ten powers 
 
 def _remainder(upper: Sequence[Number], lower: Sequence[Number]) -> list[Number]:
     """Return quotient * lower - upper, where the linear quotient cancels the two highest powers (highest first)."""
-    alpha = upper[0] / lower[0]
+    alpha = _divide(upper[0], lower[0])
     beta = _divide(plus(upper[1], times(-1, times(alpha, lower[1] if len(lower) > 1 else 0))), lower[0])
     out = []
     for k in range(2, len(upper)):
@@ -27,7 +28,12 @@ def _remainder(upper: Sequence[Number], lower: Sequence[Number]) -> list[Number]
 
 
 def _divide(x: Number, y: Number) -> Number:
-    return 0 if type(x) is int and x == 0 else x / y
+    if type(x) is int and x == 0:
+        return 0
+    try:
+        return x / y
+    except ZeroDivisionError:  # plain floats and rationals raise where arrays give NaN or infinity
+        return math.nan
 
 
 def _chain(upper: list[Number], lower: list[Number]) -> list[Number]:
@@ -96,16 +102,24 @@ def is_stable(column: Sequence[Number]) -> NDArray[np.bool_]:
 def decays_faster(p: Polynomial, sigma: Number) -> NDArray[np.bool_]:
     """Return where all roots of p (numbers or arrays) have a decay rate above sigma [1/s]."""
     with np.errstate(all="ignore"):
-        return is_stable(routh_column(shift(scale_variable(p, TIME_UNIT), -sigma / TIME_UNIT)))
+        return is_stable(routh_column(shift(_scaled(p), -sigma / TIME_UNIT)))
 
 
 def damped_more(p: Polynomial, zeta: Number) -> NDArray[np.bool_]:
     """Return where all roots of p (numbers or arrays) have a damping ratio above zeta."""
     with np.errstate(all="ignore"):
-        return is_stable(sector_column(scale_variable(p, TIME_UNIT), zeta))
+        return is_stable(sector_column(_scaled(p), zeta))
 
 
 def count_unstable(p: Polynomial) -> int:
-    """Return the number of roots in the right half-plane: the changes of sign in Routh's column."""
-    column = np.array(routh_column(scale_variable(trim(p), TIME_UNIT)), dtype=float)
-    return int(np.sum(column[:-1] * column[1:] < 0))
+    """Return the number of roots in the right half-plane, the sign changes of Routh's column; -1 if it breaks down."""
+    with np.errstate(all="ignore"):
+        column = np.array(routh_column(_scaled(p)), dtype=float)
+    if not np.all(np.isfinite(column)) or np.any(column == 0):
+        return -1
+    return int(np.sum(np.sign(column[:-1]) != np.sign(column[1:])))
+
+
+def _scaled(p: Polynomial) -> Polynomial:
+    """Return p in s / (100 rad/s), without highest coefficients that are zero everywhere."""
+    return scale_variable(trim(p, lambda a: bool(np.all(a == 0))), TIME_UNIT)

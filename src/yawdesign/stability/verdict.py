@@ -138,9 +138,10 @@ def stability_at(p: Parameters, C_s: float, variables: Collection[str] = (), *, 
     )
     unstable = int(np.sum(s.real >= 0))
     whole = c.full(C_s)
-    agree = _count(c, C_s) == unstable and bool(np.all(backward_error(whole, s) < EXACT))
+    counted = _count(c, C_s)
+    agree = counted == unstable and bool(np.all(backward_error(whole, s) < EXACT))
     return Stability(
-        stable=unstable == 0 and _count(c, C_s) == 0,
+        stable=unstable == 0 and counted == 0,
         spectral_abscissa=float(s.real.max()),
         decay_rate=float(decay_rate(moved)),
         damping_ratio=float(damping_ratio(moved)),
@@ -168,8 +169,9 @@ def modes(s: Complex) -> tuple[Mode, ...]:
 
 
 def _count(c: Characteristic, C_s: float) -> int:
-    """Return the number of roots that are not in the left half-plane, by Routh's array of every factor."""
-    return count_unstable(c.core(C_s)) + sum(2 - _damped(p) for p in c.factors.values())
+    """Return the number of roots that are not in the left half-plane, by Routh's array; -1 if it breaks down."""
+    core = count_unstable(c.core(C_s))
+    return core if core < 0 else core + sum(2 - _damped(p) for p in c.factors.values())
 
 
 def _damped(quadratic: tuple[float, ...]) -> int:
