@@ -115,9 +115,21 @@ def crossings(c: Characteristic) -> list[tuple[float, float]]:
     sign = np.sign(_phase(c, places))
     brackets = [(places[k], places[k + 1]) for k in np.flatnonzero(sign[:-1] * sign[1:] < 0)]
     touched = [places[k] for k in np.flatnonzero(sign == 0)]
-    found = touched + [brentq(lambda w: float(_phase(c, w)), *b, xtol=1e-15 * b[1], rtol=1e-14) for b in brackets]
+    found = touched + [_zero(c, low, high) for low, high in brackets]
     ratios = [(-evaluate(c.A, 1j * w) / evaluate(c.B, 1j * w), w) for w in found]
     return [(float(ratio.real), float(w)) for ratio, w in ratios if ratio.real > 0 and np.isfinite(ratio)]
+
+
+def _zero(c: Characteristic, low: float, high: float) -> float:
+    """Return where the phase is zero between two frequencies at which it was seen with different signs."""
+
+    def phase(omega: float) -> float:
+        return float(_phase(c, np.asarray(omega)))
+
+    # An end that is the root itself has the sign of its rounding error, which may differ between arrays and numbers.
+    if phase(low) * phase(high) >= 0:
+        return min(low, high, key=lambda omega: abs(phase(omega)))
+    return float(brentq(phase, low, high, xtol=1e-15 * high, rtol=1e-14))
 
 
 def _phase(c: Characteristic, omega: Float) -> Float:
