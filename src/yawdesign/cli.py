@@ -4,6 +4,7 @@ import json
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -72,28 +73,24 @@ def _code(checked: bool, feasible: bool) -> int:
     return DONE if feasible else NOTHING_FEASIBLE
 
 
+def _answer(file: str, as_json: bool, home: str, function: str) -> None:
+    with _mistakes_shown():
+        problem = _read(file)
+        result = getattr(import_module(home), function)(problem)
+        _show(result, as_json, f"{function}_tables")
+    raise typer.Exit(_code(result.checked, result.stable))
+
+
 @app.command()
 def stability(file: ProblemFile, as_json: AsJson = False) -> None:
     """Tell whether the bogie is stable with its C_s, with all modes and margins."""
-    with _mistakes_shown():
-        problem = _read(file)
-        from yawdesign.stability.verdict import stability as verdict
-
-        result = verdict(problem)
-        _show(result, as_json, "stability_tables")
-    raise typer.Exit(_code(result.checked, result.stable))
+    _answer(file, as_json, "yawdesign.stability.verdict", "stability")
 
 
 @app.command()
 def design(file: ProblemFile, as_json: AsJson = False) -> None:
     """Find the stable yaw damping, the curve's limit and the golden section between them."""
-    with _mistakes_shown():
-        problem = _read(file)
-        from yawdesign.design.forward import design as forward
-
-        result = forward(problem)
-        _show(result, as_json, "design_tables")
-    raise typer.Exit(_code(result.checked, result.stable))
+    _answer(file, as_json, "yawdesign.design.forward", "design")
 
 
 @app.command()

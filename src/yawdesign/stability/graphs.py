@@ -34,7 +34,7 @@ def parameter_names(p: Parameters) -> Names:
 def routh_column(names: Names, kind: str = "power", equations: str = "reciprocal") -> ca.Function:
     """Return Routh's column of the coupled motion as a CasADi Function of the parameter vector and C_s.
 
-    The polynomial is that in s / (100 rad/s), divided by its highest coefficient's scale nowhere: signs decide.
+    The polynomial is taken in s / (100 rad/s); the signs of the entries decide.
     """
     p, values = _symbols(names)
     C_s = ca.SX.sym("C_s")

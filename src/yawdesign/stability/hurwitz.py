@@ -32,7 +32,8 @@ def hurwitz_minors(
     Returns
     -------
     signs, logarithms : list
-        Of Delta_1 ... Delta_n in SI units; a minor that is zero has sign 0 and logarithm -inf, and those after it 0 or NaN.
+        Of Delta_1 ... Delta_n in SI units. A minor that is zero has sign 0 and logarithm -inf; those after it have
+        sign 0 or NaN.
 
     Examples
     --------
