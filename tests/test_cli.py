@@ -1,6 +1,7 @@
 """The command line: exit codes, JSON by the contract, messages, and what is not imported."""
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -121,6 +122,15 @@ def test_new_check_and_force(tmp_path):
 
 def test_schema_is_json():
     assert json.loads(run("schema").stdout)["$schema"]
+
+
+def test_console_without_unicode():
+    command = [sys.executable, "-m", "yawdesign.cli", "stability", str(PROBLEMS / "table1.yaml")]
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii", "LC_ALL": "C"}
+    done = subprocess.run(command, capture_output=True, env=environment, check=False)
+    assert done.returncode == 0, done.stderr
+    assert b"stable" in done.stdout
+    assert done.stderr == b""
 
 
 def test_help_is_light():

@@ -37,7 +37,7 @@ def _mistakes_shown() -> Iterator[None]:
         _tell(str(error))
         raise typer.Exit(BAD_INPUT) from None
     except OSError as error:
-        _tell(f"error: {error.strerror or error}: {error.filename}")
+        _tell(f"error: {error.strerror or error}" + (f": {error.filename}" if error.filename else ""))
         raise typer.Exit(BAD_INPUT) from None
 
 
@@ -119,8 +119,12 @@ def _progress() -> Iterator[Any]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda text, part: None
+        return
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("starting", total=1.0)
         yield lambda text, part: bar.update(task, description=text, completed=part)
 
@@ -150,6 +154,8 @@ def _write(path: Path, text: str) -> None:
     try:
         beside.write_text(text, encoding="utf-8")
         beside.replace(path)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
     finally:
         beside.unlink(missing_ok=True)
 
@@ -159,7 +165,7 @@ def check(file: ProblemFile) -> None:
     """List every mistake of a problem file, and doubtful values."""
     with _mistakes_shown():
         _read(file)
-    typer.echo(f"{file}: no errors")
+        typer.echo(f"{file}: no errors")
 
 
 @app.command()
@@ -167,7 +173,8 @@ def schema() -> None:
     """Print the JSON Schema of the problem file, for editors."""
     from yawdesign.problem import schema as problem_schema
 
-    typer.echo(json.dumps(problem_schema(), indent=2, ensure_ascii=False))
+    with _mistakes_shown():
+        typer.echo(json.dumps(problem_schema(), indent=2, ensure_ascii=False))
 
 
 @app.callback(invoke_without_command=True)
@@ -175,14 +182,17 @@ def _version(
     version: Annotated[bool, typer.Option("--version", help="Print the version.", is_eager=True)] = False,
 ) -> None:
     if version:
-        from importlib.metadata import version as installed
+        from yawdesign import __version__
 
-        typer.echo(f"yawdesign {installed('yawdesign')}")
+        typer.echo(f"yawdesign {__version__}")
         raise typer.Exit
 
 
 def main() -> None:
     """Run the command line; Ctrl-C ends it without a traceback."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")  # a console without µ or · shows ? and goes on
     try:
         app()
     except KeyboardInterrupt:

@@ -124,7 +124,25 @@ def test_range_of_speeds_is_stable_at_all():
 
 
 def test_undamped_motor_yaw_is_stable_for_none():
-    assert yd.design(yd.table1().replace(C_mphi=0)).status == "stable for none"
+    for equations in ("reciprocal", "as-printed"):
+        problem = yd.table1(equations=equations).replace(C_mphi=0)
+        result, verdict = yd.design(problem), yd.stability(problem)
+        assert (result.status, result.checked, result.C_s) == ("motor yaw undamped", True, None)
+        assert "C_mphi" in result.message
+        assert (verdict.stable, verdict.checked) == (False, True)
+
+
+def test_motor_without_spring_drifts_and_every_command_says_so():
+    for key in ("K_m", "K_mphi"):
+        problem = yd.table1().replace(**{key: 0})
+        result, verdict = yd.design(problem), yd.stability(problem)
+        assert result.checked
+        assert result.status in {"stable for none", "motor yaw undamped"}
+        assert (verdict.stable, verdict.checked) == (False, True)
+
+
+def test_very_stiff_joint_raises_no_warning():
+    assert yd.stability(yd.table1().replace(K_ds=1e18)).stable
 
 
 def test_sensitivities_against_differences():

@@ -106,7 +106,7 @@ def test_unstable_box_is_said(objective):
     result = yd.optimise(problem)
     assert result.status == "unstable"
     assert result.margin < 0
-    assert not result.stable
+    assert not result.optimum_stable
 
 
 def test_user_options_win():
@@ -116,6 +116,20 @@ def test_user_options_win():
     assert limited.margin == pytest.approx(yd.optimise(problem).margin, rel=1e-5)
     with pytest.raises(RuntimeError):
         yd.optimise(problem, options={"ipopt.no_such_option": 1})
+
+
+def test_damping_may_start_at_zero():
+    variables = {"C_s": yd.Variable(min=0, max=1e7), "K_2x": yd.Variable(min=1e5, max=1e7)}
+    assert yd.optimise(problem_of("decay_rate", "reciprocal", **variables)).status == "optimal"
+    tight = yd.table1().replace(curve=yd.Curve(R=300, L=19, l=60, V_r=25, limit=0.001))
+    result = yd.optimise(tight.replace(design=yd.Design(variables=variables)))
+    assert result.margin is None or result.rotational_resistance <= 0.001
+
+
+def test_undamped_motor_is_named():
+    result = yd.optimise(problem_of("decay_rate", "reciprocal", C_s=yd.Variable(min=1e4, max=1e7)).replace(C_mphi=0))
+    assert result.status == "unstable"
+    assert "C_mphi" in result.message
 
 
 def test_missing_damping_is_an_error():

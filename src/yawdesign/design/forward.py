@@ -13,9 +13,11 @@ from yawdesign.problem import Problem
 from yawdesign.problem.result import Result
 from yawdesign.stability import graphs
 from yawdesign.stability.critical import CriticalDamping, CriticalValue, Interval, critical_damping
-from yawdesign.stability.verdict import stability_at
+from yawdesign.stability.verdict import stability_at, undamped_roots
 
 GOLDEN = 0.382
+
+UNDAMPED = "motor yaw undamped"
 
 REMEDIES = {
     "ok": "the design interval (C_sl, C_su) is stable throughout",
@@ -28,9 +30,11 @@ REMEDIES = {
     "larger radius or limit",
     "stable for none": "no yaw damping makes the bogie stable: lower the speed or the conicity, or change the "
     "suspension (optimise K_m and C_m)",
+    UNDAMPED: "a motion that no yaw damper reaches is undamped: the motors yaw on their own suspension; give "
+    "K_mphi and C_mphi values above zero",
     "no upper limit": "stable up to any damping, and no curve is given that limits it: add `curve` to choose C_s",
     "unverified": "two independent counts of the unstable roots differ: do not use this result; the parameters are "
-    "too extreme for double precision",
+    "too extreme for double precision, or a root lies on the boundary for every C_s",
 }
 
 
@@ -102,11 +106,13 @@ def design(problem: Problem) -> ForwardDesign:
     """
     p, cases = problem.bogie.parameters(), conditions(problem)
     found = [critical_damping(case.applied(p), **model(problem)) for case in cases]
-    stable = reduce(intersect, [sets.stable_intervals for sets in found]) if _factors_damped(problem) else ()
+    damped = factors_damped(problem)
+    stable = reduce(intersect, [sets.stable_intervals for sets in found]) if damped else ()
     upper = None if problem.curve is None else float(curving_limit(p, problem.curve))
     checked = all(sets.checked for sets in found)
     interval = _chosen(stable, np.inf if upper is None else upper)
-    status = _status(stable, upper, interval) if checked else "unverified"
+    status = _status(stable, upper, interval) if damped else UNDAMPED
+    status = status if checked else "unverified"
     C_s = _golden(interval) if checked else None
     C_sl = interval[0] if interval else (stable[0][0] if stable else None)
     return ForwardDesign(
@@ -134,10 +140,10 @@ def intersect(left: Iterable[Interval], right: Iterable[Interval]) -> tuple[Inte
     return tuple(sorted((low, high) for low, high in both if low < high))
 
 
-def _factors_damped(problem: Problem) -> bool:
+def factors_damped(problem: Problem) -> bool:
     """Return whether the motors' own yaw is damped; no yaw damper of the bogie can help there."""
     factors = characteristic({**problem.bogie.parameters(), "v": 1.0}, **model(problem)).factors
-    return all(a > 0 for p in factors.values() for a in p)
+    return not any(undamped_roots(p) for p in factors.values())
 
 
 def _chosen(stable: tuple[Interval, ...], upper: float) -> Interval | None:

@@ -10,7 +10,7 @@ from yawdesign.bogie.characteristic import paper_coefficients
 from yawdesign.bogie.polynomials import trim
 from yawdesign.design.conditions import conditions, model
 from yawdesign.design.curving import rotational_resistance
-from yawdesign.design.forward import ForwardDesign, design
+from yawdesign.design.forward import REMEDIES, UNDAMPED, ForwardDesign, design, factors_damped
 from yawdesign.design.nlp import improve
 from yawdesign.design.search import Progress, refine, search
 from yawdesign.design.space import Float, Space, fraction
@@ -87,6 +87,8 @@ class Optimum(ForwardDesign):
         Values of the design variables as written (None where not given).
     forward : ForwardDesign
         The forward design with the optimum's bogie.
+    optimum_stable : bool
+        Whether the optimum is stable at every speed (`stable` belongs to the golden section, `C_s`).
     """
 
     optimum: Mapping[str, float | None]
@@ -102,6 +104,7 @@ class Optimum(ForwardDesign):
     margin_polynomial: float | None
     before: Mapping[str, float | None]
     forward: ForwardDesign
+    optimum_stable: bool
 
 
 def optimise(
@@ -178,12 +181,23 @@ def _answer(space: Space, x: Float) -> Optimum:
         modes=worst.modes,
         hurwitz_positive=_hurwitz_positive(space, values),
         margin_polynomial=second,
-        stable=worst.stable,
+        optimum_stable=worst.stable,
+        checked=agree and forward.checked,
+        message=_message(space, status),
     )
+
+
+def _message(space: Space, status: str) -> str:
+    if status == "unstable" and not factors_damped(space.problem):
+        return REMEDIES[UNDAMPED]
+    if status == "infeasible" and "C_s" not in space.names:
+        return "C_s as given exceeds what the curve allows: lower it, or make it a design variable"
+    return MESSAGES[status]
 
 
 def _nothing(space: Space) -> Optimum:
     nothing: dict[str, Any] = {"margin": None, "active": ("rotational_resistance",), "bounds": {}, "fixed_modes": {}}
+    nothing |= {"optimum_stable": False, "message": _message(space, "infeasible")}
     nothing |= {"modes": (), "hurwitz_positive": False, "margin_polynomial": None, "rotational_resistance": None}
     names = dict.fromkeys(("C_s", "K_m", "C_m", *space.names))
     return _optimum(space, design(space.problem), "infeasible", optimum=names, **nothing)

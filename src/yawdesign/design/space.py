@@ -23,6 +23,10 @@ from yawdesign.stability.verdict import fixed_factors
 Float = NDArray[np.float64]
 Values = dict[str, Any]
 
+# A damper with joints and no damping at all has a state less: as variables these begin at next to nothing [N s/m].
+JOINTED = frozenset({"C_s", "C_m", "C_t"})
+LEAST = 1.0
+
 
 @dataclass(frozen=True)
 class Space:
@@ -73,7 +77,8 @@ class Space:
     def bounds(self, name: str) -> tuple[float, float]:
         """Return lower and upper bound of a variable in SI."""
         variable = self.problem.design.variables[name]
-        return float(variable.min), float(variable.max)
+        low = max(float(variable.min), LEAST) if name in JOINTED else float(variable.min)
+        return low, max(low, float(variable.max))
 
     def values(self, x: Float) -> Values:
         """Return all parameters and C_s at points of the unit cube, shape (variables, ...)."""

@@ -64,6 +64,8 @@ def _checked(checked: bool) -> str:
 def stability_tables(result: "Stability") -> RenderableType:
     """Return the tables of a `Stability`."""
     verdict = Text("stable", "bold green") if result.stable else Text("UNSTABLE", "bold red")
+    if not result.checked:
+        verdict = Text("NOT VERIFIED: too close to the boundary, or too stiff, for double precision", "bold yellow")
     facts = _facts(
         f"Stability at {speed(result.speed)} with C_s = {damping(result.C_s)}",
         [

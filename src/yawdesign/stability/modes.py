@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from yawdesign.bogie.assembly import StateSpace, folded, physical
 from yawdesign.bogie.elements import Link, Mass, Single, WheelRailContact
-from yawdesign.bogie.polynomials import Number, Polynomial, evaluate
+from yawdesign.bogie.polynomials import Number, Polynomial, evaluate, scale_variable
 from yawdesign.bogie.vehicles import Parameters, bogie
+from yawdesign.stability.routh import TIME_UNIT
 
 Complex = NDArray[np.complex128]
 Float = NDArray[np.float64]
@@ -88,5 +89,20 @@ MARGINS = {"decay_rate": decay_rate, "damping_ratio": damping_ratio}
 
 def backward_error(p: Polynomial, s: Complex) -> Float:
     """Return |p(s)| / sum |a_k| |s|^k: how far s is from being an exact root, relative to the coefficients."""
-    magnitude = evaluate(tuple(np.abs(a) for a in p), np.abs(s))
-    return np.asarray(np.abs(evaluate(p, s)) / magnitude)
+    s = np.asarray(s)
+    scaled = scale_variable(p, TIME_UNIT)
+    # Powers of a stiff joint's root overflow; for large s the polynomial is taken in 1/s.
+    outside = np.abs(s) > TIME_UNIT
+    w = np.where(outside, TIME_UNIT / np.where(outside, s, 1), s / TIME_UNIT)
+    return np.where(outside, _relative(scaled[::-1], w), _relative(scaled, w))
+
+
+def _relative(p: Polynomial, s: Complex) -> Float:
+    # A root at zero is found to within the rounding of the others, so nothing is compared with powers of less than this.
+    size = np.maximum(np.abs(s), 1e-3)
+    return np.asarray(np.abs(evaluate(p, s)) / evaluate(tuple(np.abs(a) for a in p), size))
+
+
+def count_undamped(s: Complex) -> int:
+    """Return the number of roots that are not in the left half-plane, those within rounding of its edge included."""
+    return int(np.sum(s.real > -1e-10 * np.maximum(1, np.abs(s))))

@@ -112,12 +112,17 @@ def damped_more(p: Polynomial, zeta: Number) -> NDArray[np.bool_]:
 
 
 def count_unstable(p: Polynomial) -> int:
-    """Return the number of roots in the right half-plane, the sign changes of Routh's column; -1 if it breaks down."""
+    """Return the number of roots not in the left half-plane: sign changes of Routh's column, and roots at zero.
+
+    -1 if the scheme breaks down.
+    """
+    zeros = next((k for k, a in enumerate(p) if a != 0), 0)
+    p = p[zeros:]
     with np.errstate(all="ignore"):
         column = np.array(routh_column(_scaled(p)), dtype=float)
     if not np.all(np.isfinite(column)) or np.any(column == 0):
         return -1
-    return int(np.sum(np.sign(column[:-1]) != np.sign(column[1:])))
+    return zeros + int(np.sum(np.sign(column[:-1]) != np.sign(column[1:])))
 
 
 def _scaled(p: Polynomial) -> Polynomial:

@@ -14,6 +14,7 @@ from yawdesign.stability.modes import (
     Complex,
     backward_error,
     core_matrix,
+    count_undamped,
     damping_ratio,
     decay_rate,
     eigenvalues,
@@ -136,7 +137,7 @@ def stability_at(p: Parameters, C_s: float, variables: Collection[str] = (), *, 
     moved = np.concatenate(
         [core_values(p, C_s, kind, equations), *(roots(c.factors[n]) for n in c.factors if n not in fixed)]
     )
-    unstable = int(np.sum(s.real >= 0))
+    unstable = count_undamped(s)
     whole = c.full(C_s)
     counted = _count(c, C_s)
     agree = counted == unstable and bool(np.all(backward_error(whole, s) < EXACT))
@@ -171,11 +172,15 @@ def modes(s: Complex) -> tuple[Mode, ...]:
 def _count(c: Characteristic, C_s: float) -> int:
     """Return the number of roots that are not in the left half-plane, by Routh's array; -1 if it breaks down."""
     core = count_unstable(c.core(C_s))
-    return core if core < 0 else core + sum(2 - _damped(p) for p in c.factors.values())
+    return core if core < 0 else core + sum(undamped_roots(p) for p in c.factors.values())
 
 
-def _damped(quadratic: tuple[float, ...]) -> int:
-    return 2 if all(a > 0 for a in quadratic) else 0
+def undamped_roots(quadratic: tuple[float, ...]) -> int:
+    """Return how many roots of a decoupled motion k + c s + m s^2 are not damped, from the signs of k and c."""
+    k, c, _ = quadratic
+    if k > 0 and c > 0:
+        return 0
+    return 1 if c > 0 else 2
 
 
 def _damper_mode(p: Parameters, C_s: float) -> dict[str, tuple[complex, ...]]:
