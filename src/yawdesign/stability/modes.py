@@ -98,7 +98,7 @@ def backward_error(p: Polynomial, s: Complex) -> Float:
 
 
 def _relative(p: Polynomial, s: Complex) -> Float:
-    # A root at zero is found to within the rounding of the others, so nothing is compared with powers of less than this.
+    # A root at zero is found to within the rounding of the others: powers of less than this say nothing.
     size = np.maximum(np.abs(s), 1e-3)
     return np.asarray(np.abs(evaluate(p, s)) / evaluate(tuple(np.abs(a) for a in p), size))
 
