@@ -135,15 +135,22 @@ def optimise(
     space = Space(problem)
     if "C_s" not in space.names and problem.bogie.C_s is None:
         raise ProblemError("bogie.C_s is missing: give its value, or make it a design variable")
-    found = search(space, seed, progress)
+    found = np.concatenate([search(space, seed + k, progress) for k in range(_searches(space))], axis=1)
     if not found.size:
         return _nothing(space)
     return _answer(space, _best(space, found, seed, options or {}, progress))
 
 
+def _searches(space: Space) -> int:
+    """Return how many independent searches are made: what one cannot sample densely, several must not miss."""
+    return max(1, 2 * len(space.names) - 5)
+
+
 def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
     """Return the best point after IPOPT and refinement in turn: each leaves the ridges on which the other stops."""
     rng, margin = np.random.default_rng(seed), space.margins_at(x)
+    order = np.argsort(-margin, kind="stable")
+    x, margin = x[:, order], margin[order]
     for turn, (starts, radius) in enumerate(TURNS):
         progress("solving the NLP", turn / len(TURNS))
         reached = [

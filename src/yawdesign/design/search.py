@@ -15,8 +15,8 @@ from scipy.stats import qmc
 from yawdesign.design.space import Float, Space
 
 BLOCK = 20_000  # points at once: enough to hide Python's overhead, few enough for any memory
-CELLS = 6  # cells per axis, each with a best point of its own
-STARTS = 20  # cells that are refined
+CELLS = 6  # cells per axis in up to three variables, each with a best point of its own; in all about 6^3
+STARTS = 20  # cells that are refined, in up to three variables; in more of them more
 OTHERS = 4900  # points in the variables other than C_s
 LINE = 72  # points along C_s
 
@@ -29,11 +29,12 @@ class _Cells:
 
     x: Float
     margin: Float
+    per_axis: int
 
     def index(self, x: Float) -> NDArray[np.intp]:
-        """Return the cell of each point; only the first three variables are divided."""
-        cells = np.minimum((x[:3] * CELLS).astype(int), CELLS - 1)
-        return np.asarray(np.ravel_multi_index(tuple(cells), (CELLS,) * len(cells)))
+        """Return the cell of each point."""
+        cells = np.minimum((x * self.per_axis).astype(int), self.per_axis - 1)
+        return np.asarray(np.ravel_multi_index(tuple(cells), (self.per_axis,) * len(cells)))
 
     def offer(self, x: Float, margin: Float) -> None:
         """Keep those points that are better than their cell's best."""
@@ -46,15 +47,15 @@ class _Cells:
 def search(space: Space, seed: int, progress: Progress) -> Float:
     """Return refined points of the cube, shape (variables, points), the best first."""
     d, rng = len(space.names), np.random.default_rng(seed)
-    n = CELLS ** min(d, 3)
-    cells = _Cells(np.full((d, n), 0.5), np.full(n, -np.inf))
+    per_axis = CELLS if d <= 3 else max(2, round(CELLS ** (3 / d)))
+    cells = _Cells(np.full((d, per_axis**d), 0.5), np.full(per_axis**d, -np.inf), per_axis)
     first = qmc.Sobol(d, rng=rng).random(1024).T
     cells.offer(first, space.margins_at(first))
     blocks = list(_blocks(space, rng))
     for k, x in enumerate(blocks):
         progress("searching the design space", k / len(blocks))
         _look(space, cells, x)
-    order = np.argsort(-cells.margin, kind="stable")[:STARTS]
+    order = np.argsort(-cells.margin, kind="stable")[: STARTS * max(1, d - 2)]
     order = order[np.isfinite(cells.margin[order])]
     return refine(space, cells.x[:, order], cells.margin[order], rng, progress=progress)
 
