@@ -97,7 +97,9 @@ def design(file: ProblemFile, as_json: AsJson = False) -> None:
 def optimise(
     file: ProblemFile,
     as_json: AsJson = False,
-    seed: Annotated[int, typer.Option(min=0, help="Of the search points; the answer does not depend on it.")] = 0,
+    seed: Annotated[
+        int, typer.Option(min=0, help="Of the search points; with more than three variables try a few.")
+    ] = 0,
 ) -> None:
     """Find the C_s, K_m and C_m (or other variables) of largest stability margin that the curve allows."""
     with _mistakes_shown():

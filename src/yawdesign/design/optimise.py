@@ -121,7 +121,7 @@ def optimise(
     problem : Problem
         Its design variables, bounds and objective say what is sought. The margin is the worst over its speeds.
     seed : int, optional
-        Of the search points; the answer does not depend on it.
+        Of the search points. With up to three variables the answer does not depend on it; with more, try a few.
     options : mapping, optional
         Options of CasADi's `nlpsol` for IPOPT; they win over the defaults.
     progress : callable, optional
@@ -151,15 +151,16 @@ def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progres
     rng, margin = np.random.default_rng(seed), space.margins_at(x)
     order = np.argsort(-margin, kind="stable")
     x, margin = x[:, order], margin[order]
+    more = max(1, len(space.names) - 2)  # local optima multiply with the variables
     for turn, (starts, radius) in enumerate(TURNS):
         progress("solving the NLP", turn / len(TURNS))
         reached = [
-            y for k in range(min(starts, x.shape[1])) for y in improve(space, x[:, k], float(margin[k]), options)
+            y for k in range(min(starts * more, x.shape[1])) for y in improve(space, x[:, k], float(margin[k]), options)
         ]
         reached = [y[:, None] for y in reached if np.all(np.isfinite(y))]
         x = np.concatenate([x, *reached], axis=1)
         margin = space.margins_at(x)
-        order = np.argsort(-margin, kind="stable")[:4]
+        order = np.argsort(-margin, kind="stable")[: 4 * more]
         x = refine(space, x[:, order], margin[order], rng, radius=radius, until=1e-11, rounds=30)
         margin = space.margins_at(x)
     return x[:, 0]
