@@ -8,7 +8,6 @@ import numpy as np
 
 from yawdesign.bogie.characteristic import paper_coefficients
 from yawdesign.bogie.polynomials import trim
-from yawdesign.design.conditions import conditions, model
 from yawdesign.design.curving import rotational_resistance
 from yawdesign.design.forward import REMEDIES, UNDAMPED, ForwardDesign, design, factors_damped
 from yawdesign.design.nlp import improve
@@ -282,8 +281,8 @@ def _resistance(space: Space, values: Mapping[str, float]) -> float | None:
 
 def _hurwitz_positive(space: Space, values: Mapping[str, float]) -> bool:
     positive = True
-    for case in conditions(space.problem):
-        chi = paper_coefficients(case.applied(values), values["C_s"], unit=TIME_UNIT, **model(space.problem))
+    for case in space.cases:
+        chi = paper_coefficients(case.applied(values), values["C_s"], unit=TIME_UNIT, **space.model)
         chi = trim(chi[::-1])[::-1]  # a damper without damping lowers the degree
         positive &= all(sign > 0 for sign in hurwitz_minors(chi)[0])
     return bool(positive)

@@ -16,7 +16,7 @@ from yawdesign.bogie.characteristic import characteristic
 from yawdesign.design.conditions import Condition, conditions, model
 from yawdesign.design.curving import curving_limit, resistance_scale, resisting_moment
 from yawdesign.problem import Curve, Problem
-from yawdesign.stability.modes import MARGINS, core_matrix
+from yawdesign.stability.modes import MARGINS, core_eigenvalues
 from yawdesign.stability.routh import damped_more, decays_faster
 from yawdesign.stability.verdict import fixed_factors
 
@@ -125,8 +125,7 @@ class Space:
         worst = np.asarray(np.inf)
         for case in self.cases:
             p = case.applied(values)
-            s = np.asarray(np.linalg.eigvals(core_matrix(p, values["C_s"], **self.model)), dtype=complex)
-            worst = np.minimum(worst, measure(s))
+            worst = np.minimum(worst, measure(core_eigenvalues(p, values["C_s"], **self.model)))
             for factor in (characteristic(p, **self.model).factors[name] for name in self.movable):
                 worst = np.minimum(worst, measure(quadratic_roots(factor)))
         return np.where(self.feasible(values), worst, -np.inf)

@@ -18,7 +18,7 @@ from yawdesign.bogie.characteristic import Characteristic, characteristic
 from yawdesign.bogie.polynomials import Polynomial, add, evaluate, multiply, scale, scale_variable, trim
 from yawdesign.bogie.vehicles import Parameters
 from yawdesign.stability.graphs import polish
-from yawdesign.stability.modes import backward_error, core_matrix, count_undamped, roots
+from yawdesign.stability.modes import backward_error, core_eigenvalues, count_undamped, roots
 from yawdesign.stability.routh import TIME_UNIT, count_unstable
 
 Float = NDArray[np.float64]
@@ -96,7 +96,7 @@ def critical_damping(p: Parameters, *, kind: str = "power", equations: str = "re
     found = sorted(polish(p, crossings(c), kind=kind, equations=equations))
     places = _places([C_s for C_s, _ in found], p["K_ds"])
     routh = [count_unstable(c.core(C_s)) for C_s in places]
-    modes = [count_undamped(_eigenvalues(p, C_s, kind, equations)) for C_s in places]
+    modes = [count_undamped(core_eigenvalues(p, C_s, kind=kind, equations=equations)) for C_s in places]
     values = tuple(
         CriticalValue(C_s, omega, _becomes(before, after), _residual(c, C_s, omega))
         for (C_s, omega), before, after in zip(found, routh, routh[1:], strict=False)
@@ -150,10 +150,6 @@ def _parts(p: Polynomial) -> tuple[Polynomial, Polynomial]:
     """Return the even part E(x) and the odd part O(x) of p(j w) = E(x) + j w O(x), x = w^2."""
     even, odd = p[::2], p[1::2]
     return tuple(a * (-1) ** k for k, a in enumerate(even)), tuple(a * (-1) ** k for k, a in enumerate(odd))
-
-
-def _eigenvalues(p: Parameters, C_s: float, kind: str, equations: str) -> NDArray[np.complex128]:
-    return np.asarray(np.linalg.eigvals(core_matrix(p, C_s, kind=kind, equations=equations)))
 
 
 def _places(values: Sequence[float], K_ds: float) -> list[float]:

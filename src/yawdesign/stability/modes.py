@@ -66,6 +66,11 @@ def eigenvalues(matrix: Float) -> Complex:
     return np.asarray(sorted(values, key=lambda s: (-s.real, abs(s.imag), -s.imag)), dtype=complex)
 
 
+def core_eigenvalues(p: Parameters, C_s: Number, *, kind: str = "power", equations: str = "reciprocal") -> Complex:
+    """Return the eigenvalues of the coupled motion [1/s] along the last axis. Arguments as in `state_matrix`."""
+    return np.asarray(np.linalg.eigvals(core_matrix(p, C_s, kind=kind, equations=equations)), dtype=complex)
+
+
 def roots(p: Polynomial) -> Complex:
     """Return the roots of a real polynomial, lowest power first [1/s]."""
     down = np.trim_zeros(np.array(p[::-1], dtype=float), "f")

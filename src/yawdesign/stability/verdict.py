@@ -13,7 +13,7 @@ from yawdesign.problem.result import Result
 from yawdesign.stability.modes import (
     Complex,
     backward_error,
-    core_matrix,
+    core_eigenvalues,
     count_undamped,
     damping_ratio,
     decay_rate,
@@ -135,7 +135,10 @@ def stability_at(p: Parameters, C_s: float, variables: Collection[str] = (), *, 
     s = eigenvalues(state_matrix(p, C_s, kind=kind, equations=equations))
     fixed = fixed_factors(p, variables, kind=kind, equations=equations)
     moved = np.concatenate(
-        [core_values(p, C_s, kind, equations), *(roots(c.factors[n]) for n in c.factors if n not in fixed)]
+        [
+            core_eigenvalues(p, C_s, kind=kind, equations=equations),
+            *(roots(c.factors[n]) for n in c.factors if n not in fixed),
+        ]
     )
     unstable = count_undamped(s)
     whole = c.full(C_s)
@@ -154,11 +157,6 @@ def stability_at(p: Parameters, C_s: float, variables: Collection[str] = (), *, 
         unstable_roots=unstable,
         checked=agree,
     )
-
-
-def core_values(p: Parameters, C_s: float, kind: str, equations: str) -> Complex:
-    """Return the eigenvalues of the coupled motion."""
-    return np.asarray(np.linalg.eigvals(core_matrix(p, C_s, kind=kind, equations=equations)))
 
 
 def modes(s: Complex) -> tuple[Mode, ...]:
