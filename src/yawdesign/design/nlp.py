@@ -39,7 +39,7 @@ PUSHES: tuple[Mapping[str, Any], ...] = (
 
 @dataclass
 class _Program:
-    """Variables with name, scale, guess and bounds, and named constraints, as they are collected."""
+    """Variables with name, scale, guess and bounds, and constraints, as they are collected."""
 
     x: list[ca.SX] = field(default_factory=list)
     guess: list[float] = field(default_factory=list)
@@ -48,7 +48,6 @@ class _Program:
     g: list[ca.SX] = field(default_factory=list)
     g_low: list[float] = field(default_factory=list)
     g_high: list[float] = field(default_factory=list)
-    names: list[str] = field(default_factory=list)
 
     def variable(self, name: str, guess: float, low: float, high: float, scale: float = 1.0) -> ca.SX:
         """Add a variable; bounds and guess are in its own unit, the solver sees it divided by scale."""
@@ -59,9 +58,8 @@ class _Program:
         self.high.append(high / scale)
         return symbol * scale
 
-    def constrain(self, name: str, expression: ca.SX, low: float, high: float) -> None:
+    def constrain(self, expression: ca.SX, low: float, high: float) -> None:
         """Add a constraint."""
-        self.names.append(name)
         self.g.append(expression)
         self.g_low.append(low)
         self.g_high.append(high)
@@ -109,8 +107,8 @@ def _program(space: Space, x: Float, margin: float) -> tuple[_Program, ca.SX]:
     if space.curve is not None:
         share = resisting_moment(values, values["C_s"], space.curve)
         allowed = space.curve.limit * resistance_scale(values, space.curve)
-        program.constrain("rotational_resistance", share - allowed, -np.inf, 0.0)
-        program.g[-1] = program.g[-1] / (space.curve.limit * resistance_scale(start, space.curve))
+        size = space.curve.limit * resistance_scale(start, space.curve)
+        program.constrain((share - allowed) / size, -np.inf, 0.0)
     for number, case in enumerate(space.cases):
         now = _polynomials(space, case.applied(start), start["C_s"])
         for part, p in enumerate(_polynomials(space, case.applied(values), values["C_s"])):
@@ -151,7 +149,7 @@ def _factorise(program: _Program, name: str, p: Polynomial, now: Polynomial, t: 
         factors.append((program.variable(f"{name}.r", real, 0.0, np.inf, scale=max(real, 1e-2)), 1))
     for k, (whole, parts) in enumerate(zip(shifted[:-1], product(factors)[:-1], strict=True)):
         size = max(abs(start[k] / start[-1]), 1e-12 * np.max(np.abs(start / start[-1])))
-        program.constrain(f"{name} coefficient {k}", (whole / shifted[-1] - parts) / size, 0.0, 0.0)
+        program.constrain((whole / shifted[-1] - parts) / size, 0.0, 0.0)
 
 
 def _quadratic(program: _Program, name: str, p: float, q: float, t: ca.SX, ratio: bool) -> Polynomial:
@@ -160,7 +158,7 @@ def _quadratic(program: _Program, name: str, p: float, q: float, t: ca.SX, ratio
     stiffness = program.variable(name + ".q", q, 0.0, np.inf, scale=max(abs(q), 1e-6))
     if ratio:
         scale = 4 * max(abs(q), 1e-6)
-        program.constrain(name + " damping", (damping**2 - 4 * t**2 * stiffness) / scale, 0.0, np.inf)
+        program.constrain((damping**2 - 4 * t**2 * stiffness) / scale, 0.0, np.inf)
     return (stiffness, damping, 1)
 
 
