@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from yawdesign.design.forward import ForwardDesign, design
     from yawdesign.design.optimise import Optimum, optimise
+    from yawdesign.output.plots import plot
     from yawdesign.problem import (
         PARAMETERS,
         Bogie,
@@ -37,6 +38,7 @@ _HOMES = {
     "yawdesign.stability.verdict": ("Stability", "stability"),
     "yawdesign.design.forward": ("ForwardDesign", "design"),
     "yawdesign.design.optimise": ("Optimum", "optimise"),
+    "yawdesign.output.plots": ("plot",),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -56,6 +58,7 @@ __all__ = [
     "load",
     "loads",
     "optimise",
+    "plot",
     "schema",
     "stability",
     "table1",

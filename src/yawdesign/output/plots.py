@@ -1,0 +1,50 @@
+"""Pictures of results. Every function draws into Matplotlib axes and returns them; nothing is computed or shown."""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from yawdesign.problem import ProblemError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# What draws which kind of result, as module and function.
+DRAWN_BY: dict[str, tuple[str, str]] = {}
+
+
+def plot(result: Any, ax: "Axes | None" = None, **options: Any) -> "Axes":
+    """Draw any result of this package.
+
+    Parameters
+    ----------
+    result : Result
+        What `yawdesign.sweep` and the other functions return.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; a new figure if not given.
+    **options
+        Of the function that draws this kind of result.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    ProblemError
+        If there is no picture of such a thing.
+    """
+    kind = type(result).__name__
+    if kind not in DRAWN_BY:
+        raise ProblemError(f"there is no picture of a {kind}; there are pictures of {', '.join(sorted(DRAWN_BY))}")
+    home, name = DRAWN_BY[kind]
+    axes: Axes = getattr(import_module(home), name)(result, ax=ax, **options)
+    return axes
+
+
+def new_axes(ax: "Axes | None") -> "Axes":
+    """Return the axes given, or those of a new figure that no window shows."""
+    if ax is not None:
+        return ax
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(7.0, 4.5), layout="constrained").add_subplot()
