@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from yawdesign.design.forward import ForwardDesign, design
+    from yawdesign.design.functions import functions
     from yawdesign.design.optimise import Optimum, optimise
+    from yawdesign.design.state_space import StateSpaceModel, state_space
+    from yawdesign.output.export.write import Export, export
     from yawdesign.output.plots import plot
     from yawdesign.problem import (
         PARAMETERS,
@@ -37,7 +40,10 @@ _HOMES = {
     ),
     "yawdesign.stability.verdict": ("Stability", "stability"),
     "yawdesign.design.forward": ("ForwardDesign", "design"),
+    "yawdesign.design.functions": ("functions",),
     "yawdesign.design.optimise": ("Optimum", "optimise"),
+    "yawdesign.design.state_space": ("StateSpaceModel", "state_space"),
+    "yawdesign.output.export.write": ("Export", "export"),
     "yawdesign.output.plots": ("plot",),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
@@ -47,20 +53,25 @@ __all__ = [
     "Bogie",
     "Curve",
     "Design",
+    "Export",
     "ForwardDesign",
     "Optimum",
     "Problem",
     "ProblemError",
     "SpeedRange",
     "Stability",
+    "StateSpaceModel",
     "Variable",
     "design",
+    "export",
+    "functions",
     "load",
     "loads",
     "optimise",
     "plot",
     "schema",
     "stability",
+    "state_space",
     "table1",
 ]
 

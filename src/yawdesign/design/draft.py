@@ -31,6 +31,8 @@ class Port:
         Rows and columns; in C the columns stand one after the other.
     value : tuple of float
         Of an input: its value in the problem.
+    rows, columns : tuple of str
+        Of a matrix: what its rows and columns belong to.
     """
 
     name: str
@@ -38,6 +40,8 @@ class Port:
     meaning: str
     shape: tuple[int, int] = (1, 1)
     value: tuple[float, ...] = ()
+    rows: tuple[str, ...] = ()
+    columns: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -148,11 +152,11 @@ class Draft:
         self.inputs.append((Port(name, unit, meaning, (len(value), 1), value), symbol))
         return symbol
 
-    def output(self, name: str, unit: str, meaning: str, value: Any) -> None:
+    def output(self, name: str, unit: str, meaning: str, value: Any, **labels: tuple[str, ...]) -> None:
         """Add an output: a matrix, or a list that becomes a column; entries are expressions or numbers."""
         matrix = ca.vertcat(*value) if isinstance(value, (list, tuple)) else value
         matrix = ca.densify(self.symbols(matrix))
-        self.outputs.append((Port(name, unit, meaning, tuple(matrix.shape)), matrix))
+        self.outputs.append((Port(name, unit, meaning, tuple(matrix.shape), **labels), matrix))
 
     def function(self, name: str) -> ca.Function:
         """Return the function."""

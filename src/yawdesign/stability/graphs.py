@@ -91,9 +91,7 @@ def boundary_slope(names: Names, kind: str = "power", equations: str = "reciproc
 
 
 @lru_cache
-def rootfinder(
-    names: Names, kind: str = "power", equations: str = "reciprocal", method: str = "newton"
-) -> ca.Function:
+def rootfinder(names: Names, kind: str = "power", equations: str = "reciprocal", method: str = "newton") -> ca.Function:
     """Return the rootfinder of `boundary`: (z0, p) -> z. Of CasADi's methods only fast_newton becomes C code."""
     g = boundary(names, kind, equations)
     z, p = ca.SX.sym("z", 2), ca.SX.sym("p", len(names))
