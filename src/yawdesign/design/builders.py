@@ -17,9 +17,8 @@ from yawdesign.problem import ProblemError
 from yawdesign.problem.running import CURVE
 from yawdesign.stability import graphs
 from yawdesign.stability.hurwitz import hurwitz_minors as generic_minors
-from yawdesign.stability.routh import TIME_UNIT
+from yawdesign.stability.routh import TIME_UNIT, sector_column
 from yawdesign.stability.routh import routh_column as generic_column
-from yawdesign.stability.routh import sector_column
 
 IN_SCALE = "in s / (100 rad/s)"
 
@@ -129,8 +128,8 @@ def stability_margin(draft: Draft) -> None:
 def margin_equations(draft: Draft) -> None:
     """Equations of an NLP for the largest margin: the polynomial, shifted by sigma, as a product of quadratics."""
     core = _core(draft)
-    sigma = draft.input("sigma", "1/s", "decay rate by which the polynomial is shifted; 0 for a damping ratio", 0.0)
-    zeta = draft.input("zeta", "-", "damping ratio; 0 for a decay rate", 0.0)
+    sigma = draft.input("sigma", "1/s", "decay rate by which the polynomial is shifted; 0 for a damping ratio", 0.1)
+    zeta = draft.input("zeta", "-", "damping ratio; 0 for a decay rate", 0.01)
     start = quadratic_factors(draft.setting)
     p = draft.input("quadratic_p", "-", f"p of the factors s^2 + p s + q {IN_SCALE}", *start.p)
     q = draft.input("quadratic_q", "-", f"q of the factors s^2 + p s + q {IN_SCALE}", *start.q)

@@ -152,7 +152,7 @@ class Draft:
         self.inputs.append((Port(name, unit, meaning, (len(value), 1), value), symbol))
         return symbol
 
-    def output(self, name: str, unit: str, meaning: str, value: Any, **labels: tuple[str, ...]) -> None:
+    def output(self, name: str, unit: str, meaning: str, value: Any, **labels: Any) -> None:
         """Add an output: a matrix, or a list that becomes a column; entries are expressions or numbers."""
         matrix = ca.vertcat(*value) if isinstance(value, (list, tuple)) else value
         matrix = ca.densify(self.symbols(matrix))

@@ -7,6 +7,7 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
+from yawdesign import __version__
 from yawdesign.design.builders import BUILDERS
 from yawdesign.design.draft import Draft, Port, Setting
 from yawdesign.problem import Problem, ProblemError
@@ -14,6 +15,15 @@ from yawdesign.problem.diagnostics import Mistakes, suggestion
 from yawdesign.problem.result import plain
 
 ROOTFINDING = frozenset({"critical_damping"})  # a rootfinder is no operation between numbers: MX instead of SX
+SOLVED = 1e-10  # largest residual of a solution
+SelfTest = dict[str, dict[str, list[float]]]
+VERSIONS = {"yawdesign": __version__, "casadi": str(ca.__version__)}
+
+PREAMBLE = """\
+#if defined(__GNUC__) && !defined(MATLAB_MEX_FILE)
+#pragma GCC diagnostic ignored "-Wunused-const-variable" /* tables that only the MEX gateway reads */
+#endif
+"""
 
 
 @dataclass(frozen=True)
@@ -79,7 +89,7 @@ class Functions(Mapping[str, ca.Function]):
 
 
 def _ports(ports: Iterable[Port]) -> list[dict[str, Any]]:
-    return [{key: entry for key, entry in asdict(port).items() if key != "value" and entry != ()} for port in ports]
+    return [{key: entry for key, entry in asdict(port).items() if entry != ()} for port in ports]
 
 
 def _lines(name: str, f: Documented) -> Iterator[str]:
@@ -125,20 +135,21 @@ def functions(
     >>> round(float(f(v=350 / 3.6, C_s_start=2e5, omega_start=22)["C_sl"]), 2)
     255130.52
     """
-    setting = Setting.of(problem, None if inputs is None else _split(inputs))
+    setting = Setting.of(problem, None if inputs is None else listed(inputs))
     return Functions({name: _documented(name, setting) for name in _wanted(only, setting)})
 
 
-def _split(names: Collection[str]) -> tuple[str, ...]:
-    listed = names.split(",") if isinstance(names, str) else names
-    return tuple(name.strip() for name in listed if name.strip())
+def listed(names: Collection[str]) -> tuple[str, ...]:
+    """Return names as a tuple; a text is split at its commas."""
+    parts = names.split(",") if isinstance(names, str) else names
+    return tuple(name.strip() for name in parts if name.strip())
 
 
 def _wanted(only: Collection[str] | None, setting: Setting) -> tuple[str, ...]:
     if only is None:
         return tuple(name for name in BUILDERS if name != "rotational_resistance" or setting.load)
     mistakes = Mistakes()
-    names = _split(only)
+    names = listed(only)
     for name in names:
         with mistakes.under(f"function {name}"):
             if name not in BUILDERS:
@@ -160,12 +171,17 @@ def _documented(name: str, setting: Setting) -> Documented:
     )
 
 
-def self_test(f: Documented) -> dict[str, dict[str, list[float]]]:
-    """Return inputs with the problem's values, and the outputs that belong to them, matrices column by column."""
+def self_test(f: Documented) -> SelfTest | None:
+    """Return inputs with the problem's values, and the outputs that belong to them, matrices column by column.
+
+    None where the problem has no critical damping: what Newton's method then ends with is no number to compare.
+    """
     values = {port.name: list(port.value) for port in f.inputs}
     found = f.function.call([ca.DM(value) for value in values.values()])
     columns = [np.array(value).ravel(order="F").tolist() for value in found]
-    return {"inputs": values, "outputs": {port.name: c for port, c in zip(f.outputs, columns, strict=True)}}
+    outputs = {port.name: column for port, column in zip(f.outputs, columns, strict=True)}
+    solved = f.function.name() not in ROOTFINDING or outputs["residual"][0] < SOLVED
+    return {"inputs": values, "outputs": outputs} if solved else None
 
 
 def c_source(name: str, exported: Mapping[str, ca.Function]) -> str:
@@ -182,9 +198,9 @@ def c_source(name: str, exported: Mapping[str, ca.Function]) -> str:
     for symbol, function in exported.items():
         generator.add(_named(symbol, function))
     source = str(generator.dump())
-    if "#error" in source:
+    if "#error" in source:  # CasADi only warns
         raise RuntimeError("CasADi cannot write C code for one of the functions")
-    return source
+    return PREAMBLE + source
 
 
 def _named(symbol: str, function: ca.Function) -> ca.Function:

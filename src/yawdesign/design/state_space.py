@@ -93,9 +93,10 @@ def state_space(problem: Problem) -> StateSpaceModel:
     found = functions(problem, inputs=(), only=("state_matrix",))["state_matrix"]()
     p, C_s = problem.bogie.parameters(), float(problem.bogie.C_s or 0.0)
     names = state_names({**p, "v": problem.speeds[0]}, C_s, model(problem))
+    matrices: dict[str, Any] = {name: np.array(found[name].full()) for name in "ABCD"}
     return StateSpaceModel(
-        **{name: np.array(found[name].full()) for name in "ABCD"},
-        **{key: getattr(names, key) for key in names.__dataclass_fields__},
+        **matrices,
+        **vars(names),
         C_s=C_s,
         speed=float(problem.speeds[0]),
         title=problem.title,
