@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     )
     from yawdesign.stability.verdict import Stability, stability
 
-__version__: str = "0.1.0"
+__version__ = "0.1.0"
 
 _HOMES = {
     "yawdesign.problem": (

@@ -7,7 +7,6 @@ from typing import Any
 import casadi as ca
 import numpy as np
 
-from yawdesign import __version__
 from yawdesign.design.builders import BUILDERS
 from yawdesign.design.draft import Draft, Port, Setting
 from yawdesign.problem import Problem, ProblemError
@@ -17,7 +16,6 @@ from yawdesign.problem.result import plain
 ROOTFINDING = frozenset({"critical_damping"})  # a rootfinder is no operation between numbers: MX instead of SX
 SOLVED = 1e-10  # largest residual of a solution
 SelfTest = dict[str, dict[str, list[float]]]
-VERSIONS = {"yawdesign": __version__, "casadi": str(ca.__version__)}
 
 PREAMBLE = """\
 #if defined(__GNUC__) && !defined(MATLAB_MEX_FILE)
@@ -182,6 +180,13 @@ def self_test(f: Documented) -> SelfTest | None:
     outputs = {port.name: column for port, column in zip(f.outputs, columns, strict=True)}
     solved = f.function.name() not in ROOTFINDING or outputs["residual"][0] < SOLVED
     return {"inputs": values, "outputs": outputs} if solved else None
+
+
+def versions() -> dict[str, str]:
+    """Return the versions that write functions; a CasADi file is read by the same CasADi or a later one."""
+    from yawdesign import __version__
+
+    return {"yawdesign": __version__, "casadi": str(ca.__version__)}
 
 
 def c_source(name: str, exported: Mapping[str, ca.Function]) -> str:

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from yawdesign.design.functions import VERSIONS, Documented, Functions
+from yawdesign.design.functions import Documented, Functions, versions
 from yawdesign.output.export.c_files import HEADER_FILE, SOURCE, symbol
 from yawdesign.output.export.folder import GENERATOR, MANIFEST, write_text
 from yawdesign.output.export.parcel import Parcel
@@ -25,7 +25,7 @@ def write_manifest(parcel: Parcel, files: Sequence[str], notes: Sequence[str], f
     described = Functions(parcel.functions).to_dict()
     manifest = {
         "generator": GENERATOR,
-        "versions": VERSIONS,
+        "versions": versions(),
         "title": parcel.problem.title,
         "kind": parcel.problem.bogie.kind,
         "equations": parcel.problem.equations,
@@ -48,6 +48,6 @@ def _entry(name: str, described: Mapping[str, Any], f: Documented, test: Any, fi
         "c_symbol": symbol(name),
         **described,
         "time_scale": TIME_SCALE,
-        "versions": VERSIONS,
+        "versions": versions(),
         "self_test": test,
     }

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
-from yawdesign.design.functions import VERSIONS, c_source, functions, listed, self_test
+from yawdesign.design.functions import c_source, functions, listed, self_test, versions
 from yawdesign.output.export import c_files
 from yawdesign.output.export.folder import exported_folder, write_text
 from yawdesign.output.export.manifest import write_manifest
@@ -50,7 +50,7 @@ def write_c(parcel: Parcel, folder: Path) -> list[str]:
     """Write C source and header of all functions, a self-test, an example and a Makefile."""
     source = c_source("yawdesign", {c_files.symbol(name): f.function for name, f in parcel.functions.items()})
     title = f"{parcel.problem.title or 'Bogie'} ({parcel.problem.bogie.kind}, {parcel.problem.equations})"
-    about = f"{title}: functions written by yawdesign {VERSIONS['yawdesign']} with CasADi {VERSIONS['casadi']}"
+    about = f"{title}: functions written by yawdesign {versions()['yawdesign']} with CasADi {versions()['casadi']}"
     chosen = "critical_damping" if "critical_damping" in parcel.functions else next(iter(parcel.functions))
     texts = {
         c_files.SOURCE: source,
