@@ -186,7 +186,7 @@ def versions() -> dict[str, str]:
     """Return the versions that write functions; a CasADi file is read by the same CasADi or a later one."""
     from yawdesign import __version__
 
-    return {"yawdesign": __version__, "casadi": str(ca.__version__)}
+    return {"yawdesign": __version__, "casadi": str(ca.CasadiMeta.version())}
 
 
 def c_source(name: str, exported: Mapping[str, ca.Function]) -> str:
