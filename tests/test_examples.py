@@ -58,7 +58,8 @@ def test_c_program_finds_the_critical_damping_of_table_1(program):
 def test_c_program_with_another_bogie(program):
     p = {**yd.table1().bogie.parameters(), "v": 350 / 3.6, "lambda": 0.12}
     (expected,) = critical_damping(p, equations="as-printed").critical
-    out = run(program, f"v={350 / 3.6}", "lambda=0.12", f"C_s_start={1.05 * expected.C_s}").stdout
+    start = f"C_s_start={1.05 * expected.C_s}", f"omega_start={0.97 * expected.omega}"
+    out = run(program, f"v={350 / 3.6}", "lambda=0.12", *start).stdout
     assert float(out.split()[1]) == pytest.approx(expected.C_s, rel=1e-9)
 
 

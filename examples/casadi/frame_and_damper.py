@@ -3,8 +3,8 @@
     yawdesign export problems/table1.yaml --to exported
     python examples/casadi/frame_and_damper.py exported
 
-A frame of less yaw inertia J_b hunts less, but a light frame costs, and so does a strong motor damper C_m. Which of both
-bring C_sl under a limit at the least cost?
+A frame of less yaw inertia J_b hunts less, but a light frame costs, and so does a strong motor damper C_m. Which pair
+of them brings C_sl under a limit at the least cost?
 """
 
 import json
