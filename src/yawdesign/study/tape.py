@@ -183,9 +183,7 @@ class Tape:
                 continue
             kind = self._kind(step, operands)
             row = place[step.target] = free[kind].pop() if free[kind] else np.ones(length, dtype=kind)
-            calls.append(
-                (partial(function, dtype=float) if kind == "d" and _mixed(operands) else function, (*operands, row))
-            )
+            calls.append((_as_numbers(function, operands) if kind == "d" else function, (*operands, row)))
             for i in {i for i in step.sources if last_use[i] == k and i not in same and i not in kept}:
                 free[place[i].dtype.char].append(place[i])
         return calls, inputs, [place[k] for k in self.results]
