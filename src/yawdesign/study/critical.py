@@ -6,20 +6,20 @@ point passes if every root's residual is small, no count is doubtful, and every 
 what the crossing root's velocity says. What fails is recomputed the thorough way.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign.stability.critical import TIGHT, even_odd
+from yawdesign.stability.critical import TIGHT, CriticalDamping, even_odd
 from yawdesign.stability.routh import TIME_UNIT
 from yawdesign.study import kernels
+from yawdesign.study.block import Block
 from yawdesign.study.isolation import isolate
 
 Float = NDArray[np.float64]
-Values = Mapping[str, Any]
 
 CONVERGED = 1e-14
 ITERATIONS = 100
@@ -44,6 +44,26 @@ class CriticalField:
     unstable_roots: Float
     passed: NDArray[np.bool_]
 
+    def with_rows(self, rows: Mapping[int, CriticalDamping]) -> "CriticalField":
+        """Return the field with the critical values of some points replaced."""
+        least = max(self.critical.shape[1], *(len(sets.critical) for sets in rows.values()))
+        critical, omega = (_widened(x, least) for x in (self.critical, self.omega))
+        unstable = _widened(self.unstable_roots, least + 1)
+        for k, sets in rows.items():
+            _fill(critical[k], [x.C_s for x in sets.critical])
+            _fill(omega[k], [x.omega for x in sets.critical])
+            _fill(unstable[k], sets.unstable_roots)
+        return CriticalField(critical, omega, unstable, self.passed)
+
+
+def _widened(rows: Float, width: int) -> Float:
+    return np.pad(rows, ((0, 0), (0, width - rows.shape[1])), constant_values=np.nan)
+
+
+def _fill(row: Float, values: Sequence[float]) -> None:
+    row[:] = np.nan
+    row[: len(values)] = values
+
 
 class _Parts(NamedTuple):
     """Even and odd parts in x = w^2 of A and of B, coefficients along the first axis."""
@@ -67,26 +87,25 @@ class _Crossings(NamedTuple):
     residual: Float
 
 
-def critical_field(p: Values, *, kind: str, equations: str) -> CriticalField:
+def critical_field(block: Block, *, kind: str, equations: str) -> CriticalField:
     """Return the critical values at many points, without recomputing those that fail a check.
 
     Parameters
     ----------
-    p : mapping
-        Symbols of Table I in SI units and ``v``: numbers, or arrays of one common length; at least one array.
+    block : Block
+        The points, with ``v``.
     kind, equations : str
         As in `yawdesign.bogie.vehicles.bogie`.
     """
-    zeros = frozenset(name for name, x in p.items() if np.ndim(x) == 0 and x == 0)
-    tape, (na, nb, _) = kernels.boundaries(kind, equations, zeros)
-    results = tape(p)
+    tape, (na, nb, _) = kernels.boundaries(kind, equations, block.zeros - {"C_s"})
+    results = tape(block.values)
     A, B, F = results[:na], results[na : na + nb], results[na + nb :]
     n = results.shape[1]
     isolated = isolate(F)
     found = _crossings(A, B, isolated.owner, isolated.low, isolated.high)
-    places, table = _table(found, n)
-    critical, omega, direction, residual = (_spread(x, places, table) for x in found[1:])
-    unstable, doubtful = _counted(A, B, critical, p["K_ds"])
+    rows = Rows(found.owner, found.C_s, n)
+    critical, omega, direction, residual = map(rows.spread, found[1:])
+    unstable, doubtful = _counted(A, B, critical, block.values["K_ds"])
     known = ~np.isnan(critical)
     steps = np.diff(unstable, axis=1)
     with np.errstate(invalid="ignore"):
@@ -95,7 +114,7 @@ def critical_field(p: Values, *, kind: str, equations: str) -> CriticalField:
 
 
 def _crossings(A: Float, B: Float, owner: NDArray[np.intp], low: Float, high: Float) -> _Crossings:
-    parts = _Parts(*(np.array(_equal(half)) for p in (A, B) for half in even_odd(tuple(p))))
+    parts = _Parts(*(np.array(half) for p in (A, B) for half in even_odd(tuple(p))))
     x = _refined(parts.of(owner), low, high)
     mine = parts.of(owner)
     (ea, oa, eb, ob), (dea, doa, deb, dob) = _values(mine, x)
@@ -107,12 +126,8 @@ def _crossings(A: Float, B: Float, owner: NDArray[np.intp], low: Float, high: Fl
     slope = 2 * omega * even + 1j * (oa + C_s * ob + 2 * x * odd)
     velocity = -1j * (eb + 1j * omega * ob) / slope
     error = np.hypot(ea + C_s * eb, omega * (oa + C_s * ob)) / _size(A, B, owner, C_s, omega)
-    columns = owner, C_s, omega * TIME_UNIT, np.sign(velocity.real), error
-    return _Crossings(*(column[keep] for column in columns))
-
-
-def _equal(half: Any) -> list[Float]:
-    return [np.asarray(x) for x in half]
+    columns = (x[keep] for x in (C_s, omega * TIME_UNIT, np.sign(velocity.real), error))
+    return _Crossings(owner[keep], *columns)
 
 
 def _refined(parts: _Parts, low: Float, high: Float) -> Float:
@@ -167,20 +182,30 @@ def _size(A: Float, B: Float, owner: NDArray[np.intp], C_s: Float, omega: Float)
     return np.asarray(a + np.abs(C_s) * b)
 
 
-def _table(found: _Crossings, n: int) -> tuple[Any, tuple[int, int]]:
-    """Return where each crossing stands in a table with a row for every point, in rising order of C_s."""
-    order = np.lexsort((found.C_s, found.owner))
-    owner = found.owner[order]
-    count = np.bincount(owner, minlength=n)
-    rank = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
-    return (order, owner, rank), (n, int(count.max(initial=0)))
+class Rows:
+    """A table with a row for every point, filled from its left end with values in rising order.
 
+    Parameters
+    ----------
+    owner : array of int
+        To which point each value belongs.
+    key : array
+        By what the values of a point are ordered.
+    n : int
+        Number of points.
+    """
 
-def _spread(column: Float, places: Any, shape: tuple[int, int]) -> Float:
-    order, owner, rank = places
-    out = np.full(shape, np.nan)
-    out[owner, rank] = column[order]
-    return out
+    def __init__(self, owner: NDArray[np.intp], key: Float, n: int) -> None:
+        self._order = np.lexsort((key, owner))
+        self._owner = owner[self._order]
+        self.count = np.bincount(owner, minlength=n)
+        self._rank = np.arange(len(owner)) - np.repeat(np.cumsum(self.count) - self.count, self.count)
+
+    def spread(self, column: Float) -> Float:
+        """Return the table of a column; what is not there is NaN."""
+        out = np.full((len(self.count), int(self.count.max(initial=0))), np.nan)
+        out[self._owner, self._rank] = column[self._order]
+        return out
 
 
 def _counted(A: Float, B: Float, critical: Float, K_ds: Any) -> tuple[Float, NDArray[np.bool_]]:

@@ -5,7 +5,6 @@ no root, where they change it once there is exactly one (Descartes), and elsewhe
 missed or taken for two, however close it lies to others, down to rounding.
 """
 
-from collections.abc import Sequence
 from functools import lru_cache
 from math import comb
 from typing import Any, NamedTuple
@@ -64,7 +63,7 @@ def _isolate(F: Float, offset: int) -> tuple[Any, Float, Float, Any]:
     changes = _sign_changes(coefficients)
     cell, owner = np.nonzero(changes)
     found = changes[cell, owner]
-    state = (owner, cell, np.zeros(len(cell)), np.ones(len(cell)), coefficients[:, cell, owner])
+    state: list[Any] = [owner, cell, np.zeros(len(cell)), np.ones(len(cell)), coefficients[:, cell, owner]]
     done, state = _sorted_out(state, found)
     pieces = [done]
     for _ in range(HALVINGS):
@@ -82,13 +81,13 @@ def _isolate(F: Float, offset: int) -> tuple[Any, Float, Float, Any]:
     return owner + offset, start, np.minimum(end, FARTHEST), state[0] + offset
 
 
-def _sorted_out(state: Sequence[Any], changes: NDArray[np.uint8]) -> tuple[list[Any], list[Any]]:
+def _sorted_out(state: list[Any], changes: NDArray[np.uint8]) -> tuple[list[Any], list[Any]]:
     """Return the intervals with one root, and those that may have more."""
     one, more = changes == 1, changes > 1
     return [x[one] for x in state[:4]], [x[..., more] for x in state]
 
 
-def _halved(state: Sequence[Any]) -> tuple[list[Any], NDArray[np.uint8]]:
+def _halved(state: list[Any]) -> tuple[list[Any], NDArray[np.uint8]]:
     """Return both halves of all intervals (de Casteljau), and the sign changes in them."""
     owner, cell, left, right, b = state
     middle = (left + right) / 2

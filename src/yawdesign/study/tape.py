@@ -6,9 +6,9 @@ whose scalars are vectors of points. Both do the same operations in the same ord
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
+from threading import Lock
 from typing import Any
 
 import casadi as ca
@@ -20,7 +20,7 @@ from yawdesign.study.compiled import Run
 
 Float = NDArray[np.float64]
 BLOCK = 8192  # points; long enough that NumPy's calls cost little, and a row still fits the innermost caches
-MANY = 20_000  # points from which on a compilation of about a second pays
+MANY = 100_000  # points after which a compilation, about half a second, has paid
 
 BINARY = {
     ca.OP_ADD: (np.add, "{0} + {1}"),
@@ -69,6 +69,8 @@ class Tape:
         self.constants: dict[int, float] = {}
         self.steps: list[Step] = []
         self.results = [-1] * self.size
+        self._lock, self._asked, self._tried = Lock(), 0, False
+        self._fast: Run | None = None
         self._record(function)
 
     def _record(self, function: ca.Function) -> None:
@@ -99,37 +101,34 @@ class Tape:
             raise NotImplementedError(f"no array operation for CasADi's operation {operation}")
         self.steps.append(Step(operation, target, sources))
 
-    def __call__(self, values: Mapping[str, Any], *, threads: int = 1) -> Float:
+    def __call__(self, values: Mapping[str, Any]) -> Float:
         """Return the outputs at many points.
 
         Parameters
         ----------
         values : mapping
-            A number, or an array with one value for each point, for every input.
-        threads : int
-            Among how many threads the points are shared.
+            A number, or an array with one value for each point, for every input. Others may be there: they are not
+            read, but count as points.
 
         Returns
         -------
         ndarray, shape (size, points)
         """
         arguments = [np.ascontiguousarray(values[name], dtype=float) for name in self.inputs]
-        points = max((x.size for x in arguments), default=1)
+        points = max(np.size(x) for x in values.values())
         out = np.empty((self.size, points))
-        run: Run = (self._compiled if points >= MANY else None) or self._interpret
-        edges = shares(points, threads, BLOCK)
-        if len(edges) == 1:
-            run(arguments, out, *edges[0])
-        else:
-            with ThreadPoolExecutor(len(edges)) as pool:
-                for done in [pool.submit(run, arguments, out, *edge) for edge in edges]:
-                    done.result()
+        self._runner(points)(arguments, out, 0, points)
         return out
 
-    @cached_property
-    def _compiled(self) -> Run | None:
-        run = compiled.load(self.source())
-        return run if run and self._agrees(run) else None
+    def _runner(self, points: int) -> Run:
+        """Return how to run: compiled, once so many points were asked for that compiling has paid."""
+        with self._lock:
+            self._asked += points
+            if self._asked >= MANY and not self._tried:
+                self._tried = True
+                run = compiled.load(self.source())
+                self._fast = run if run and self._agrees(run) else None
+            return self._fast or self._interpret
 
     def _agrees(self, run: Run) -> bool:
         """Return whether compiled code gives the bits of NumPy at points that cover full and broken vectors."""
@@ -198,13 +197,6 @@ class Tape:
 def _as_numbers(function: Callable[..., Any], operands: Sequence[Any]) -> Callable[..., Any]:
     """Return the function such that it takes comparisons for numbers: NumPy's sum of two of them is one of them."""
     return partial(function, dtype=float) if any(x.dtype == bool for x in operands) else function
-
-
-def shares(points: int, threads: int, least: int) -> list[tuple[int, int]]:
-    """Return the first and the last point but one of every thread, at least so many points each."""
-    parts = max(1, min(threads, points // least))
-    size = -(-points // (parts * least)) * least
-    return [(first, min(first + size, points)) for first in range(0, points, size)]
 
 
 def _literal(value: float) -> str:
