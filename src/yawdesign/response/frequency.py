@@ -30,7 +30,7 @@ EXACT = 1e-9  # largest relative difference of the two ways
 
 @dataclass(frozen=True, repr=False, eq=False)
 class FrequencyResponse(Result):
-    """Complex amplitude of every coordinate on a harmonic track of amplitude 1 (1 m of alignment, 1 rad of cross-level).
+    """Complex amplitude of every coordinate on a harmonic track of amplitude 1 (1 m, or 1 rad of cross-level).
 
     The time factor is exp(+j w t), the phase is zero where the front wheelset stands, and the rear wheelset sees the
     track 2a/v later. Of an unstable bogie this is the motion that it would have if it did not grow.
@@ -73,7 +73,11 @@ class FrequencyResponse(Result):
 
 
 def frequency_response(
-    problem: Problem, wavelength: Any = 20.0, input: str = "alignment", *, speed: Any = None
+    problem: Problem,
+    wavelength: Any = 20.0,
+    input: str = "alignment",  # noqa: A002 - the word of the field
+    *,
+    speed: Any = None,
 ) -> FrequencyResponse:
     """Return how the bogie answers a harmonic track.
 

@@ -1,4 +1,4 @@
-"""The bogie at one speed as x' = A x + B u, y = C x + D u, with the track as input and everything of interest as output.
+"""The bogie at one speed as x' = A x + B u, y = C x + D u: the track as input, all that is of interest as output.
 
 The inputs u are alignment [m] and cross-level angle [rad] under the front wheelset, then under the rear one.
 """
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.bogie.assembly import StateSpace, physical
-from yawdesign.bogie.elements import Link, Maxwell, Single, WheelRailContact
+from yawdesign.bogie.elements import Link, Mass, Maxwell, Single, WheelRailContact
 from yawdesign.bogie.vehicles import MOTOR_DAMPER, YAW_DAMPER, bogie
 from yawdesign.problem import Problem
 from yawdesign.stability.verdict import given_damping
@@ -45,6 +45,8 @@ class System:
         Time by which the rear wheelset sees the track later, 2 a / v [s].
     p : mapping
         Symbols of Table I in SI units.
+    model : mapping
+        Keywords ``kind`` and ``equations`` of the model.
     """
 
     A: Float
@@ -58,6 +60,7 @@ class System:
     C_s: float
     lag: float
     p: Mapping[str, float]
+    model: Mapping[str, str]
 
     @property
     def eigenvalues(self) -> Complex:
@@ -76,7 +79,8 @@ class System:
 def system_at(problem: Problem, v: float) -> System:
     """Return the bogie of a problem at a speed [m/s]; an error if it has no C_s."""
     p = {**problem.bogie.parameters(), "v": v, "C_s": given_damping(problem)}
-    elements = physical(bogie(p, kind=problem.bogie.kind, equations=problem.equations))
+    model = {"kind": problem.bogie.kind, "equations": problem.equations}
+    elements = physical(bogie(p, **model))
     space = StateSpace(elements)
     A = np.asarray(space.fill(np.zeros((space.size, space.size))))
     B = np.zeros((space.size, len(space.input_names)))
@@ -86,7 +90,14 @@ def system_at(problem: Problem, v: float) -> System:
     C, D = (np.array([row[k] for row in rows.values()]) for k in (0, 1))
     outputs = {name: k for k, name in enumerate(rows)}
     v, C_s, a = float(v), float(p["C_s"]), float(p["a"])
-    return System(A, B, C, D, outputs, space.coordinates, tuple(elements), v, C_s, 2 * a / v, p)
+    return System(A, B, C, D, outputs, space.coordinates, tuple(elements), v, C_s, 2 * a / v, p, model)
+
+
+def coordinates(problem: Problem) -> tuple[str, ...]:
+    """Return the displacements of a problem's bogie."""
+    p = {**problem.bogie.parameters(), "v": 1.0}
+    elements = physical(bogie(p, kind=problem.bogie.kind, equations=problem.equations))
+    return tuple(e.coordinate for e in elements if isinstance(e, Mass))
 
 
 Rows = dict[str, tuple[Float, Float]]
