@@ -122,8 +122,8 @@ def simulate(
     track: Annotated[
         str,
         typer.Option(
-            help="german-low, german-high, fra-1 ... fra-6, german:A_a=..,A_v=.., fra:A=.., harmonic, sinusoid, smooth, "
-            "or a file with a measured track or a spectrum."
+            help="german-low, german-high, fra-1 ... fra-6, german:A_a=..,A_v=.., fra:A=.., harmonic, sinusoid, "
+            "smooth, or a file with a measured track or a spectrum."
         ),
     ] = "german-low",
     speed: Annotated[
@@ -159,8 +159,15 @@ def simulate(
             result = run(
                 problem,
                 shaped(track, wavelength=wavelength, amplitude=amplitude),
-                **{"speed": speed or None, "duration": duration, "length": length, "step": step},
-                **{"start": start, "offset": offset, "band": band, "seed": seed, "progress": progress},
+                speed=speed or None,
+                duration=duration,
+                length=length,
+                step=step,
+                start=start,
+                offset=offset,
+                band=band,
+                seed=seed,
+                progress=progress,
             )
         if to_csv:
             histories.write_csv(result, to_csv)

@@ -27,16 +27,15 @@ SHOWN = {
     "N": (1e-3, "kN"),
 }
 BODIES = {"b": "frame", "w1": "front wheelset", "w2": "rear wheelset", "m1": "front motor", "m2": "rear motor"}
+DIRECTIONS = {"y": "lateral", "phi": "yaw"}
 ENDS = {"1": "front", "2": "rear"}
 
 
 def meaning(name: str) -> str:
     """Return what a response is called, such as "lateral acceleration of the frame"."""
-    base, _, rate = name.partition("_velocity") if "velocity" in name else name.partition("_acceleration")
-    kind = "velocity" if "velocity" in name else "acceleration" if "acceleration" in name else "displacement"
-    direction, _, body = base.partition("_")
-    if direction in ("y", "phi") and body in BODIES:
-        return f"{'lateral' if direction == 'y' else 'yaw'} {kind} of the {BODIES[body]}"
+    direction, body, *rate = name.split("_")
+    if direction in DIRECTIONS and body in BODIES:
+        return f"{DIRECTIONS[direction]} {rate[0] if rate else 'displacement'} of the {BODIES[body]}"
     words = name.split("_")
     end = f" ({ENDS[words.pop()]})" if words[-1] in ENDS else ""
     return " ".join(words) + end
@@ -150,16 +149,12 @@ def damper_component(result: "DamperComponent", ax: "Axes | None" = None) -> "Ax
     ax.plot(f, [z.stiffness / 1e6 for z in result.over_frequency], "o-", color=LATERAL, ms=3.5)
     right.plot(f, [57.29577951308232 * z.phase for z in result.over_frequency], "s--", color=YAW, ms=3.5)
     ax.axhline(result.K_ds / 1e6, color="0.5", lw=0.8, ls=":")
-    ax.annotate("joints alone", (f[0], result.K_ds / 1e6), va="bottom", color="0.4", fontsize="small")
+    ax.annotate(
+        "stiffness of the joints", (f[-1], result.K_ds / 1e6), ha="right", va="bottom", color="0.4", fontsize="small"
+    )
     if result.hunting_frequency is not None:
         ax.axvline(result.hunting_frequency, color="0.5", lw=0.8)
-        ax.annotate(
-            " hunting",
-            (result.hunting_frequency, 0.03),
-            xycoords=("data", "axes fraction"),
-            color="0.4",
-            fontsize="small",
-        )
+        ax.annotate(" hunting", (result.hunting_frequency, 0.5), color="0.4", fontsize="small")
     ax.set(xlabel="frequency [Hz]", ylim=(0, 1.12 * result.K_ds / 1e6))
     ax.set_ylabel("|Z| of the pair [MN/m]", color=LATERAL)
     right.set_ylabel("phase [°]", color=YAW)

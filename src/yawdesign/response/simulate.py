@@ -105,9 +105,9 @@ def simulate(
         With a value of ``C_s``.
     track : str, path, Spectrum or track
         ``german-low`` (default), ``german-high``, ``fra-1`` to ``fra-6``, ``german:A_a=2e-7,A_v=4e-7`` or
-        ``fra:A=2e-6`` with other coefficients [m^2 rad/m], ``harmonic`` (20 m, 5 mm), ``sinusoid`` (of Table II), ``smooth``, a file
-        with a measured track or a spectrum (`read_track`, `read_spectrum`), or one of the objects `Harmonic`,
-        `Sinusoid`, `Spectrum`, `RandomTrack`, `MeasuredTrack`.
+        ``fra:A=2e-6`` with other coefficients [m^2 rad/m], ``harmonic`` (20 m, 5 mm), ``sinusoid`` (of Table II),
+        ``smooth``, a file with a measured track or a spectrum (`read_track`, `read_spectrum`), or one of the objects
+        `Harmonic`, `Sinusoid`, `Spectrum`, `RandomTrack`, `MeasuredTrack`.
     speed : float, str or sequence of them, optional
         Speeds [m/s] or texts with units; those of the problem if not given.
     duration, length : float or str, optional

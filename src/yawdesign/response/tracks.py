@@ -62,7 +62,7 @@ def shaped(track: str, *, wavelength: str | None, amplitude: str | None) -> str 
     if track == "harmonic":
         return Harmonic(**given)
     if track == "sinusoid" and wavelength is None:
-        return Sinusoid(**given)
+        return Sinusoid(amplitude) if given else Sinusoid()
     if given:
         raise ProblemError(f"track: {track} has no {' and no '.join(given)} to choose")
     return track
