@@ -48,7 +48,9 @@ def main():
     save("frequency-response.png", yd.frequency_response(design, wavelengths))
     save("spectrum.png", yd.spectrum_check("german-low"))
     save("damper.png", yd.damper_component(design))
-    unstable = yd.simulate(table1.replace(C_s="50 kN s/m"), speed=["250 km/h", "300 km/h"], start="rest", duration="12 s")
+    unstable = yd.simulate(
+        table1.replace(C_s="50 kN s/m"), speed=["250 km/h", "300 km/h"], start="rest", duration="12 s"
+    )
     save("unstable.png", unstable)
 
 

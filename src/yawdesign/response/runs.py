@@ -19,7 +19,7 @@ from yawdesign.response.tracks import AnyTrack
 from yawdesign.stability.modes import Complex, core_eigenvalues
 
 USUAL_DURATION = 60.0  # [s]
-MOST_GROWTH = 500.0  # logarithm; a run that would grow by more is cut short, before its numbers overflow
+MOST_GROWTH = 250.0  # logarithm; a run that would grow by more is cut short, before squares of its numbers overflow
 AGREE = 0.01  # relative difference of two ways to the same number that is still called the same
 NEUTRAL = 1e-2  # [1/s]: growth rates are compared relative to at least this
 
