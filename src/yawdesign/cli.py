@@ -169,14 +169,14 @@ def simulate(
                 seed=seed,
                 progress=progress,
             )
-        if to_csv:
-            histories.write_csv(result, to_csv)
-        if to_npz:
-            histories.write_npz(result, to_npz)
         if to_plot:
             from yawdesign.output.response_plots import simulation
 
             histories.write_picture(lambda: simulation(result, response=response), to_plot)
+        if to_csv:
+            histories.write_csv(result, to_csv)
+        if to_npz:
+            histories.write_npz(result, to_npz)
         _show(result, as_json, "simulation_tables", "response_tables")
     raise typer.Exit(_code(result.checked, result.settles))
 

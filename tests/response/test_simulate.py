@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import yawdesign as yd
-from yawdesign.response import runs
+from yawdesign.response import motion
 from yawdesign.response.decay import fitted_rate
 from yawdesign.response.march import first_order_hold
 from yawdesign.response.system import system_at
@@ -105,7 +105,7 @@ def test_a_wrong_step_is_noticed(monkeypatch):
     def wrong(A, B, step):
         return first_order_hold(A * 1.02, B, step)
 
-    monkeypatch.setattr(runs, "first_order_hold", wrong)
+    monkeypatch.setattr(motion, "first_order_hold", wrong)
     assert not yd.simulate(PROBLEM, duration=10).checked
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from yawdesign.output.plots import new_axes
-from yawdesign.problem import format_quantity
+from yawdesign.problem import ProblemError, format_quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,6 +65,8 @@ def simulation(
     """
     ax = new_axes(ax)
     chosen = [h for h in result.histories if speeds is None or any(abs(h.speed - v) < 1e-6 for v in speeds)]
+    if not chosen:
+        raise ProblemError(f"speeds: there are runs at {', '.join(f'{h.speed:g}' for h in result.histories)} m/s")
     factor, unit = SHOWN[chosen[0].unit(response)]
     for k, history in enumerate(chosen):
         shown = history.time <= (until or history.time[-1])

@@ -124,7 +124,7 @@ def _rows(name: str) -> list[tuple[int, Fields]]:
 def _split(line: str, separator: str) -> Fields:
     fields, start = [], 1
     for part in line.split(separator):
-        fields.append((start + len(part) - len(part.lstrip()), part.strip()))
+        fields.append((start + len(part) - len(part.lstrip()), part.strip().strip('"')))
         start += len(part) + 1
     return fields
 

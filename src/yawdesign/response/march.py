@@ -104,9 +104,8 @@ def time_step(system: System, excitation: float, step: float | None) -> float:
     if step is None:
         return float(min(USUAL_STEP, largest))
     if step > largest * (1 + 1e-9):
-        raise ProblemError(
-            f"{step:g} s is too coarse: the {what} moves at {fastest:.4g} Hz, which takes {largest:.3g} s or less"
-        )
+        message = f"{step:g} s is too coarse: the {what} moves at {fastest:.4g} Hz, which takes {largest:.3g} s or less"
+        raise ProblemError(message).under("step")
     return step
 
 
@@ -114,8 +113,9 @@ def clock_of(duration: float, step: float) -> Clock:
     """Return the instants of a run; the step is shortened so that the last one falls on the end."""
     steps = int(np.ceil(duration / step * (1 - 1e-12)))
     if steps > MOST_STEPS:
-        raise ProblemError(f"{duration:g} s in steps of {step:.3g} s are {steps} steps, at most {MOST_STEPS} are made")
+        message = f"{duration:g} s in steps of {step:.3g} s are {steps} steps, at most {MOST_STEPS} are made"
+        raise ProblemError(message).under("duration")
     if steps < PER_PERIOD:
-        raise ProblemError(f"{duration:g} s are only {steps} steps of {step:.3g} s: run for longer")
+        raise ProblemError(f"{duration:g} s are only {steps} steps of {step:.3g} s: run for longer").under("duration")
     steps += steps % 2  # an even number for the fast Fourier transform
     return Clock(duration / steps, steps)

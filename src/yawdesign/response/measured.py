@@ -20,7 +20,7 @@ MEASURED = {
     "gauge": Column(("mm",), required=False),
 }
 LARGEST_STEP = 1.0  # [m]: a wavelength of 3 m, the shortest that track geometry cars look at, has three points then
-EVEN = 0.02  # part of a step by which a step may differ from the others
+EVEN = 0.05  # part of a step by which a step may differ from the others
 # Largest size of what can be right [m], [rad]; beyond it the unit is wrong.
 LARGEST = {"alignment": 0.5, "cross_level": 0.5}
 GAUGES, DEVIATION = (0.5, 2.0), 0.06

@@ -12,7 +12,8 @@ from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_choice, as_count, as_quantity
 from yawdesign.response.component import DamperComponent, component
-from yawdesign.response.runs import History, Plan, Run, run
+from yawdesign.response.motion import History, Plan
+from yawdesign.response.runs import Run, run
 from yawdesign.response.system import coordinates, system_at
 from yawdesign.response.track import Band
 from yawdesign.response.tracks import as_track
