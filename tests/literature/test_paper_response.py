@@ -1,4 +1,4 @@
-"""What the paper's Table II and Figures 2, 4 and 5 say about motion, within what they leave open (docs/verification.md)."""
+"""The paper's Table II and Figures 2, 4 and 5, within what they leave open (docs/verification.md)."""
 
 import numpy as np
 import pytest

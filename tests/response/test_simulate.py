@@ -80,6 +80,14 @@ def test_an_unstable_bogie_is_said_to_be_unstable():
     assert fast.fitted_rate == pytest.approx(fast.spectral_abscissa, rel=0.01)
 
 
+def test_an_unstable_bogie_usually_runs_until_it_has_grown_a_thousandfold():
+    problem = yd.table1(equations="as-printed").replace(C_s="50 kN s/m")
+    run = yd.simulate(problem).runs[0]
+    assert run.duration * run.spectral_abscissa == pytest.approx(7, rel=1e-3)
+    assert run.peak["y_b"] < 100
+    assert yd.simulate(problem, duration=30).runs[0].duration == pytest.approx(30)
+
+
 def test_a_strongly_unstable_run_is_cut_before_it_overflows():
     problem = yd.table1().replace(C_s=0, speed="900 km/h")
     result = yd.simulate(problem, duration="1e4 s", step="2 ms", start="rest")

@@ -15,6 +15,7 @@ from yawdesign.response.track import Clock, Lines, RandomTrack, synthesise
 from yawdesign.response.tracks import AnyTrack
 
 USUAL_DURATION = 60.0  # [s]
+USUAL_GROWTH, LEAST_DURATION = 7.0, 2.0  # an unstable bogie usually runs until it has grown by exp(7), or for 2 s
 MOST_GROWTH = 250.0  # logarithm; a run that would grow by more is cut short, before squares of its numbers overflow
 TRACK_INPUTS = ("alignment_1", "cross_level_1", "alignment_2", "cross_level_2")
 
@@ -131,7 +132,9 @@ def _clock(system: System, plan: Plan, abscissa: float) -> Clock:
                 f"at {3.6 * system.v:.4g} km/h"
             )
         duration = longest if duration is None else duration
-    duration = USUAL_DURATION if duration is None else duration
+    if duration is None:
+        unstable = abscissa * USUAL_DURATION > USUAL_GROWTH
+        duration = max(LEAST_DURATION, USUAL_GROWTH / abscissa) if unstable else USUAL_DURATION
     if abscissa * duration > MOST_GROWTH:
         duration = MOST_GROWTH / abscissa
     return clock_of(duration, time_step(system, plan.track.fastest(system.v), plan.step))

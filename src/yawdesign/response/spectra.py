@@ -87,7 +87,7 @@ def german(
     --------
     >>> import numpy as np
     >>> german(2.119e-7, 4.032e-7).density("alignment", np.array([0.1])).round(9)
-    array([2.0032e-05])
+    array([2.0033e-05])
     """
     _positive({"A_a": A_a, "A_v": A_v}, {"W_c": W_c, "W_r": W_r, "W_s": W_s, "b": b})
 
