@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import matplotlib as mpl
 from matplotlib.figure import Figure
 
 import yawdesign as yd
@@ -32,7 +31,6 @@ def save(file, result):
 
 def main():
     """Draw everything."""
-    mpl.rcParams["svg.hashsalt"] = "yawdesign"
     FOLDER.mkdir(parents=True, exist_ok=True)
     table1 = yd.table1(equations="as-printed")
     accelerations = ("y_b_acceleration", "phi_b_acceleration")
