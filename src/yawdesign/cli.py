@@ -133,13 +133,13 @@ def simulate(
     length: Annotated[str | None, typer.Option(help="Of each run, instead of a duration, such as '2000 m'.")] = None,
     step: Annotated[str | None, typer.Option(help="Largest time step; 1 ms, or finer where needed.")] = None,
     start: Annotated[str, typer.Option(help="stationary, rest or offset.")] = "stationary",
-    offset: Annotated[str, typer.Option(help="Lateral displacement for --start offset.")] = "10 mm",
+    offset: Annotated[str | None, typer.Option(help="Lateral displacement for --start offset; 10 mm.")] = None,
     band: Annotated[
-        tuple[str, str], typer.Option(help="Of a random track, such as '0.3 Hz' '40 Hz', or in 1/m along it.")
-    ] = ("0.3 Hz", "40 Hz"),
+        tuple[str, str] | None, typer.Option(help="Of a spectrum; '0.3 Hz' '40 Hz', or in 1/m along the track.")
+    ] = None,
     wavelength: Annotated[str | None, typer.Option(help="Of --track harmonic; 20 m.")] = None,
     amplitude: Annotated[str | None, typer.Option(help="Of --track harmonic, 5 mm, or sinusoid, 1 m.")] = None,
-    seed: Annotated[int, typer.Option(min=0, help="Of a random track.")] = 0,
+    seed: Annotated[int | None, typer.Option(min=0, help="Of a spectrum's random phases; 0.")] = None,
     csv: Annotated[str | None, typer.Option(help="Write the time histories as text.")] = None,
     npz: Annotated[str | None, typer.Option(help="Write the time histories as NumPy arrays.")] = None,
     plot: Annotated[str | None, typer.Option(help="Draw the frame's motion to a .png, .pdf or .svg file.")] = None,

@@ -141,6 +141,12 @@ def test_all_mistakes_at_once():
         yd.simulate(PROBLEM, start="offset", offset={"yb": 1})
     with pytest.raises(yd.ProblemError, match="seed"):
         yd.simulate(PROBLEM, seed=-1)
+    with pytest.raises(yd.ProblemError, match="seed: the track smooth takes none"):
+        yd.simulate(PROBLEM, "smooth", seed=1)
+    with pytest.raises(yd.ProblemError, match="band: the track harmonic takes none"):
+        yd.simulate(PROBLEM, yd.Harmonic(), band=(1, 2))
+    with pytest.raises(yd.ProblemError, match='offset: is used with the start "offset" alone'):
+        yd.simulate(PROBLEM, offset=1)
     with pytest.raises(yd.ProblemError, match="no speed"):
         yd.simulate(PROBLEM, speed=[])
     with pytest.raises(yd.ProblemError, match="too short"):

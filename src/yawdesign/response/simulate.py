@@ -19,6 +19,7 @@ from yawdesign.response.track import Band
 from yawdesign.response.tracks import as_track
 from yawdesign.stability.verdict import given_damping
 
+USUAL_OFFSET = 0.01  # [m]
 STARTS = ("stationary", "rest", "offset")
 Progress = Callable[[str, float], Any]
 
@@ -90,9 +91,9 @@ def simulate(
     length: Any = None,
     step: Any = None,
     start: str = "stationary",
-    offset: Any = 0.01,
+    offset: Any = None,
     band: Any = None,
-    seed: int = 0,
+    seed: int | None = None,
     progress: Progress = lambda text, part: None,
 ) -> Simulation:
     """Run a problem's bogie over a track.
@@ -120,12 +121,13 @@ def simulate(
         Already in the stationary motion (on a measured track: settled on its first values; an unstable bogie, which has
         no stationary motion, starts from rest instead), at rest, or displaced.
     offset : float, str or mapping of str to float
-        For "offset": lateral displacement of all bodies [m], or displacements by coordinate [m], [rad].
+        For the start "offset": lateral displacement of all bodies [m], 10 mm if not given, or displacements by
+        coordinate [m], [rad].
     band : Band or pair, optional
-        Of a random track, as frequencies ``("0.3 Hz", "40 Hz")``, the default, or along the track
+        Of a spectrum, as frequencies ``("0.3 Hz", "40 Hz")``, the default, or along the track
         ``("0.024 1/m", "0.333 1/m")``.
-    seed : int
-        Of a random track.
+    seed : int, optional
+        Of a spectrum's random phases; 0 if not given.
     progress : callable
         Called with a text and the part that is done, 0 to 1.
 
@@ -157,7 +159,7 @@ def simulate(
         ("length", lambda: _positive(length, "m", alone=duration is None)),
         ("step", lambda: _positive(step, "s")),
         ("start", lambda: as_choice(start, STARTS)),
-        ("offset", lambda: _offsets(problem, offset) if start == "offset" else {}),
+        ("offset", lambda: _offsets(problem, offset, start)),
     ):
         with mistakes.under(name if name != "track" else ""):
             found[name] = read()
@@ -222,17 +224,17 @@ def damper_component(problem: Problem, **options: Any) -> DamperComponent:
     return damper
 
 
-def _band(band: Any) -> Band:
+def _band(band: Any) -> Band | None:
     if band is None or isinstance(band, Band):
-        return band or Band()
+        return band
     if isinstance(band, str) or np.size(band) != 2:
         raise ProblemError(f"band: {band!r} is not a pair, such as ('0.3 Hz', '40 Hz')")
     return Band(*band)
 
 
-def _seed(seed: Any) -> int:
+def _seed(seed: Any) -> int | None:
     try:
-        return as_count(seed, 0, 2**63 - 1)
+        return None if seed is None else as_count(seed, 0, 2**63 - 1)
     except ProblemError as error:
         raise error.under("seed") from None
 
@@ -257,8 +259,13 @@ def _positive(value: Any, unit: str, *, alone: bool = True) -> float | None:
     return number
 
 
-def _offsets(problem: Problem, offset: Any) -> dict[str, float]:
+def _offsets(problem: Problem, offset: Any, start: str) -> dict[str, float]:
+    if start != "offset":
+        if offset is not None:
+            raise ProblemError('is used with the start "offset" alone')
+        return {}
     allowed = coordinates(problem)
+    offset = USUAL_OFFSET if offset is None else offset
     given = offset if isinstance(offset, Mapping) else {x: offset for x in allowed if x.startswith("y")}
     mistakes = Mistakes()
     values = {}

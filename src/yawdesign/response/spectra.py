@@ -1,7 +1,7 @@
 """Spectra of track irregularity: one-sided densities over the wavenumber W = 2 pi / wavelength [rad/m]."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
@@ -142,8 +142,8 @@ class Tabulated:
         Wavenumbers [rad/m], rising, and densities.
     """
 
-    W: Float = field()
-    S: Float = field()
+    W: Float
+    S: Float
 
     def __call__(self, W: Float) -> Float:
         """Return the density at wavenumbers [rad/m]."""

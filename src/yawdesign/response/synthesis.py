@@ -51,7 +51,7 @@ def spectrum_check(
     *,
     speed: Any = 300 / 3.6,
     length: Any = 20e3,
-    seed: int = 0,
+    seed: int | None = None,
 ) -> SpectrumCheck:
     """Return the spectrum of a synthesised track beside the one it was made from.
 
@@ -65,8 +65,8 @@ def spectrum_check(
         Speed [m/s] or text with a unit, by which a band in Hz becomes one along the track.
     length : float or str
         Length of the sample [m] or text with a unit.
-    seed : int
-        Of the sample.
+    seed : int, optional
+        Of the sample; 0 if not given.
 
     Raises
     ------

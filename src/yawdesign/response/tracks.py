@@ -16,7 +16,7 @@ PLAIN: dict[str, Callable[[], AnyTrack]] = {"harmonic": Harmonic, "sinusoid": Si
 NAMES = (*SPECTRA, *PLAIN, *(f"{form}:..." for form in FORMS))
 
 
-def as_track(track: Any, *, band: Band | None = None, seed: int = 0) -> AnyTrack:
+def as_track(track: Any, *, band: Band | None = None, seed: int | None = None) -> AnyTrack:
     """Return the track that is meant.
 
     Parameters
@@ -26,34 +26,36 @@ def as_track(track: Any, *, band: Band | None = None, seed: int = 0) -> AnyTrack
         ``german:A_a=2e-7,A_v=4e-7`` or ``fra:A=2e-6``; ``harmonic`` (20 m, 5 mm), ``sinusoid`` (Table II), ``smooth``;
         the name of a file with a measured track or with a spectrum; a `Spectrum`, or a track.
     band : Band, optional
-        Of a random track; 0.3 to 40 Hz if not given.
+        Of a spectrum; 0.3 to 40 Hz if not given.
     seed : int, optional
-        Of a random track.
+        Of a spectrum; 0 if not given.
 
     Raises
     ------
     ProblemError
-        If there is no such track, or its file has mistakes.
+        If there is no such track, its file has mistakes, or it is no spectrum and band or seed are given.
     """
-    if isinstance(track, AnyTrack):
-        return track
-    if isinstance(track, Spectrum):
-        return RandomTrack(track, band or Band(), seed)
-    if not isinstance(track, (str, PathLike)):
+    if not isinstance(track, (str, PathLike, Spectrum, AnyTrack)):
         raise ProblemError(f"track: {track!r} is no track: give one of {', '.join(NAMES)}, or a file")
-    return _of_text(fspath(track), band or Band(), seed)
+    found = track if isinstance(track, (Spectrum, AnyTrack)) else _of_text(fspath(track))
+    if isinstance(found, Spectrum):
+        return RandomTrack(found, band or Band(), seed or 0)
+    for name, given in (("band", band), ("seed", seed)):
+        if given is not None:
+            raise ProblemError(f"{name}: the track {found.name} takes none, a spectrum does")
+    return found
 
 
-def _of_text(text: str, band: Band, seed: int) -> AnyTrack:
+def _of_text(text: str) -> Spectrum | AnyTrack:
     if text in PLAIN:
         return PLAIN[text]()
     if text in SPECTRA:
-        return RandomTrack(SPECTRA[text], band, seed)
+        return SPECTRA[text]
     if text.partition(":")[0] in FORMS and ":" in text:
-        return RandomTrack(form_of(text), band, seed)
+        return form_of(text)
     if not Path(text).exists() and not Path(text).suffix:
         raise ProblemError(f"track: {text!r} is not one of {', '.join(NAMES)}, nor a file{suggestion(text, NAMES)}")
-    return RandomTrack(read_spectrum(text), band, seed) if is_spectrum(text) else read_track(text)
+    return read_spectrum(text) if is_spectrum(text) else read_track(text)
 
 
 def shaped(track: str, *, wavelength: str | None, amplitude: str | None) -> str | AnyTrack:
