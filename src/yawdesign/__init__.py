@@ -26,6 +26,14 @@ if TYPE_CHECKING:
         schema,
         table1,
     )
+    from yawdesign.response.component import DamperComponent
+    from yawdesign.response.frequency import FrequencyResponse, frequency_response
+    from yawdesign.response.measured import MeasuredTrack, read_spectrum, read_track
+    from yawdesign.response.simulate import Simulation, damper_component, simulate
+    from yawdesign.response.spectra import SPECTRA, Spectrum
+    from yawdesign.response.stationary import StationaryResponse, stationary_response
+    from yawdesign.response.synthesis import SpectrumCheck, spectrum_check
+    from yawdesign.response.track import Band, Harmonic, RandomTrack, Sinusoid
     from yawdesign.stability.verdict import Stability, stability
 
 __version__ = "0.1.0"
@@ -36,6 +44,14 @@ _HOMES = {
         *("load", "loads", "schema", "table1"),
     ),
     "yawdesign.stability.verdict": ("Stability", "stability"),
+    "yawdesign.response.component": ("DamperComponent",),
+    "yawdesign.response.frequency": ("FrequencyResponse", "frequency_response"),
+    "yawdesign.response.measured": ("MeasuredTrack", "read_spectrum", "read_track"),
+    "yawdesign.response.simulate": ("Simulation", "damper_component", "simulate"),
+    "yawdesign.response.spectra": ("SPECTRA", "Spectrum"),
+    "yawdesign.response.stationary": ("StationaryResponse", "stationary_response"),
+    "yawdesign.response.synthesis": ("SpectrumCheck", "spectrum_check"),
+    "yawdesign.response.track": ("Band", "Harmonic", "RandomTrack", "Sinusoid"),
     "yawdesign.design.forward": ("ForwardDesign", "design"),
     "yawdesign.design.optimise": ("Optimum", "optimise"),
     "yawdesign.output.plots": ("plot",),
@@ -44,23 +60,42 @@ _HOME = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
     "PARAMETERS",
+    "SPECTRA",
+    "Band",
     "Bogie",
     "Curve",
+    "DamperComponent",
     "Design",
     "ForwardDesign",
+    "FrequencyResponse",
+    "Harmonic",
+    "MeasuredTrack",
     "Optimum",
     "Problem",
     "ProblemError",
+    "RandomTrack",
+    "Simulation",
+    "Sinusoid",
+    "Spectrum",
+    "SpectrumCheck",
     "SpeedRange",
     "Stability",
+    "StationaryResponse",
     "Variable",
+    "damper_component",
     "design",
+    "frequency_response",
     "load",
     "loads",
     "optimise",
     "plot",
+    "read_spectrum",
+    "read_track",
     "schema",
+    "simulate",
+    "spectrum_check",
     "stability",
+    "stationary_response",
     "table1",
 ]
 

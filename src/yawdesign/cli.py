@@ -58,13 +58,13 @@ def _read(path: str) -> "Problem":
     return problem
 
 
-def _show(result: Any, as_json: bool, tables: str) -> None:
+def _show(result: Any, as_json: bool, tables: str, home: str = "tables") -> None:
     from yawdesign.output import tables as output
 
     if as_json:
         typer.echo(json.dumps(result.to_dict(), indent=2, allow_nan=False))
     else:
-        output.show(getattr(output, tables)(result))
+        output.show(getattr(import_module(f"yawdesign.output.{home}"), tables)(result))
 
 
 def _code(checked: bool, feasible: bool) -> int:
@@ -113,6 +113,72 @@ def optimise(
 
 
 app.command("optimize", hidden=True)(optimise)
+
+
+@app.command()
+def simulate(
+    file: ProblemFile,
+    as_json: AsJson = False,
+    track: Annotated[
+        str,
+        typer.Option(
+            help="german-low, german-high, fra-1 ... fra-6, german:A_a=..,A_v=.., fra:A=.., harmonic, sinusoid, "
+            "smooth, or a file with a measured track or a spectrum."
+        ),
+    ] = "german-low",
+    speed: Annotated[
+        list[str] | None, typer.Option(help="Such as '300 km/h', in place of the problem's; may be repeated.")
+    ] = None,
+    duration: Annotated[str | None, typer.Option(help="Of each run; 60 s, or the whole measured track.")] = None,
+    length: Annotated[str | None, typer.Option(help="Of each run, instead of a duration, such as '2000 m'.")] = None,
+    step: Annotated[str | None, typer.Option(help="Largest time step; 1 ms, or finer where needed.")] = None,
+    start: Annotated[str, typer.Option(help="stationary, rest or offset.")] = "stationary",
+    offset: Annotated[str | None, typer.Option(help="Lateral displacement for --start offset; 10 mm.")] = None,
+    band: Annotated[
+        tuple[str, str] | None, typer.Option(help="Of a spectrum; '0.3 Hz' '40 Hz', or in 1/m along the track.")
+    ] = None,
+    wavelength: Annotated[str | None, typer.Option(help="Of --track harmonic; 20 m.")] = None,
+    amplitude: Annotated[str | None, typer.Option(help="Of --track harmonic, 5 mm, or sinusoid, 1 m.")] = None,
+    seed: Annotated[int | None, typer.Option(min=0, help="Of a spectrum's random phases; 0.")] = None,
+    csv: Annotated[str | None, typer.Option(help="Write the time histories as text.")] = None,
+    npz: Annotated[str | None, typer.Option(help="Write the time histories as NumPy arrays.")] = None,
+    plot: Annotated[str | None, typer.Option(help="Draw the frame's motion to a .png, .pdf or .svg file.")] = None,
+    response: Annotated[str, typer.Option(help="What --plot draws.")] = "y_b",
+) -> None:
+    """Run the bogie over a track: RMS, peaks, whether amplitudes settle, and what its yaw damper has to do."""
+    from yawdesign.output import histories
+
+    with _mistakes_shown():
+        files = [(csv, (".csv",)), (npz, (".npz",)), (plot, histories.PICTURES)]
+        to_csv, to_npz, to_plot = (path and histories.checked_ending(path, endings) for path, endings in files)
+        problem = _read(file)
+        with _progress() as progress:
+            from yawdesign.response.simulate import simulate as run
+            from yawdesign.response.tracks import shaped
+
+            result = run(
+                problem,
+                shaped(track, wavelength=wavelength, amplitude=amplitude),
+                speed=speed or None,
+                duration=duration,
+                length=length,
+                step=step,
+                start=start,
+                offset=offset,
+                band=band,
+                seed=seed,
+                progress=progress,
+            )
+        if to_plot:
+            from yawdesign.output.response_plots import simulation
+
+            histories.write_picture(lambda: simulation(result, response=response), to_plot)
+        if to_csv:
+            histories.write_csv(result, to_csv)
+        if to_npz:
+            histories.write_npz(result, to_npz)
+        _show(result, as_json, "simulation_tables", "response_tables")
+    raise typer.Exit(_code(result.checked, result.settles))
 
 
 @contextmanager

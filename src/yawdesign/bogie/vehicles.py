@@ -7,7 +7,8 @@ from yawdesign.bogie.polynomials import Number
 
 Parameters = Mapping[str, Number]
 
-YAW_DAMPER = "yaw damper"
+YAW_DAMPER = "yaw damper"  # the pair of them
+MOTOR_DAMPER = "motor damper "
 
 
 def bogie(p: Parameters, *, kind: str = "power", equations: str = "reciprocal") -> list[Element]:
@@ -54,7 +55,12 @@ def _motors(p: Parameters, equations: str) -> Pair:
     motor = (
         Mass("y_m", p["M_m"]),
         Mass("phi_m", p["J_m"]),
-        Link((Spring(p["K_m"]), Maxwell(p["K_dm"] / 2, p["C_m"])), {"y_b": 1, "y_m": -1}, lever={"phi_b": p["a_0"]}),
+        Link(
+            (Spring(p["K_m"]), Maxwell(p["K_dm"] / 2, p["C_m"])),
+            {"y_b": 1, "y_m": -1},
+            lever={"phi_b": p["a_0"]},
+            name=MOTOR_DAMPER,
+        ),
         Link((Spring(p["K_mphi"]), Dashpot(p["C_mphi"])), {"phi_b": 1, "phi_m": -1}, acts_on=acts_on),
     )
     return Pair(motor, own=frozenset({"y_m", "phi_m"}))
