@@ -1,0 +1,1 @@
+"""How the bogie moves: track, frequency response, motion in time."""
