@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from yawdesign.design.optimise import Optimum, optimise
     from yawdesign.design.state_space import StateSpaceModel, state_space
     from yawdesign.output.export.write import Export, export
+    from yawdesign.output.fmi.archive import Fmu, write_fmu
     from yawdesign.output.plots import plot
     from yawdesign.problem import (
         PARAMETERS,
@@ -44,6 +45,7 @@ _HOMES = {
     "yawdesign.design.optimise": ("Optimum", "optimise"),
     "yawdesign.design.state_space": ("StateSpaceModel", "state_space"),
     "yawdesign.output.export.write": ("Export", "export"),
+    "yawdesign.output.fmi.archive": ("Fmu", "write_fmu"),
     "yawdesign.output.plots": ("plot",),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
@@ -54,6 +56,7 @@ __all__ = [
     "Curve",
     "Design",
     "Export",
+    "Fmu",
     "ForwardDesign",
     "Optimum",
     "Problem",
@@ -73,6 +76,7 @@ __all__ = [
     "stability",
     "state_space",
     "table1",
+    "write_fmu",
 ]
 
 

@@ -1,4 +1,4 @@
-"""The equations of motion x' = A(p) x + B(p) u as a CasADi function of parameters, track inputs and states, and as C."""
+"""The equations of motion x' = A(p) x + B(p) u as a CasADi function of parameters, inputs and states, and as C."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -41,9 +41,7 @@ class EquationsOfMotion:
     function: ca.Function
 
 
-def equations_of_motion(
-    p: Parameters, *, kind: str = "power", equations: str = "reciprocal"
-) -> EquationsOfMotion:
+def equations_of_motion(p: Parameters, *, kind: str = "power", equations: str = "reciprocal") -> EquationsOfMotion:
     """Return the equations of motion of a bogie.
 
     Parameters
@@ -64,7 +62,9 @@ def equations_of_motion(
     absent = {name: 0 for name in DASHPOTS if name in p and p[name] < LEAST_DAMPING}
     names = tuple(name for name in p if name not in absent)
     symbols = ca.SX.sym("p", len(names))
-    elements = physical(bogie({**dict(zip(names, ca.vertsplit(symbols), strict=True)), **absent}, kind=kind, equations=equations))
+    elements = physical(
+        bogie({**dict(zip(names, ca.vertsplit(symbols), strict=True)), **absent}, kind=kind, equations=equations)
+    )
     system = StateSpace(elements)
     u, x = ca.SX.sym("u", len(system.input_names)), ca.SX.sym("x", system.size)
     dx = _product(system.entries, x, system.size) + _product(system.inputs, u, system.size)
