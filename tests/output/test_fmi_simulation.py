@@ -144,7 +144,7 @@ def test_free_motion(written):
     A, _, names = matrices(problem)
     x0 = np.zeros(len(A))
     x0[names.index("y_w1")], x0[names.index("phi_b")], x0[len(names)] = 3e-3, -1e-3, 0.02
-    start = {"y_w1": 3e-3, "phi_b": -1e-3, "y_b_dot": 0.02}
+    start = {"y_w1": 3e-3, "phi_b": -1e-3, "v_y_b": 0.02}
     times, found = simulated(path, names, stop_time=2.0, start_values=start)
     assert_close(found, exact(A, x0, times)[:, : len(names)])
 
@@ -231,15 +231,15 @@ def test_a_parameter_changed_on_the_way_acts_at_once(table1_fmu, opened, tmp_pat
 
 def test_force_and_stroke_of_the_yaw_damper(table1_fmu, opened):
     p = TABLE_1.bogie.parameters()
-    unit = opened(table1_fmu, phi_b=2e-3, yaw_damper_dashpot=5e-4)
-    stroke, force = unit.get("yaw_damper_stroke", "yaw_damper_force")
+    unit = opened(table1_fmu, phi_b=2e-3, z_1=5e-4)
+    stroke, force = unit.get("u_s", "F_s")
     assert stroke == pytest.approx(p["b_3"] * 2e-3, rel=1e-15)
     assert force == pytest.approx(p["K_ds"] * (p["b_3"] * 2e-3 - 5e-4), rel=1e-14)
     # In the equation of the frame's yaw the force acts at b_3, and nothing else knows the dashpot.
-    before = unit.get("der(phi_b_dot)")
-    unit.set({"yaw_damper_dashpot": 0.0})
-    after = unit.get("der(phi_b_dot)")
-    added = unit.get("yaw_damper_force")[0] - force
+    before = unit.get("der(v_phi_b)")
+    unit.set({"z_1": 0.0})
+    after = unit.get("der(v_phi_b)")
+    added = unit.get("F_s")[0] - force
     assert after[0] - before[0] == pytest.approx(-p["b_3"] * added / p["J_b"], rel=1e-12)
 
 
@@ -249,16 +249,18 @@ def test_a_damper_without_damping_is_left_out(tmp_path):
     yd.write_fmu(problem, path)
     A, _, names = matrices(problem)
     assert len(A) == 22
-    variables = {v.name for v in fmpy.read_model_description(str(path)).modelVariables}
-    assert not variables & {"C_s", "C_t", "yaw_damper_dashpot", "lateral_damper1_dashpot"}
-    times, found = simulated(str(path), [*names, "yaw_damper_force"], stop_time=0.5, start_values={"y_w1": 1e-3})
+    variables = {v.name: v.description for v in fmpy.read_model_description(str(path)).modelVariables}
+    assert not {"C_s", "C_t", "z_3"} & set(variables)
+    assert "front motor damper" in variables["z_1"]
+    assert "rear motor damper" in variables["z_2"]
+    times, found = simulated(str(path), [*names, "F_s"], stop_time=0.5, start_values={"y_w1": 1e-3})
     assert_close(found[:, :-1], exact(A, np.eye(22)[names.index("y_w1")] * 1e-3, times)[:, : len(names)])
     assert not found[:, -1].any()
 
 
 def test_a_state_can_be_kept_and_taken_up_again(table1_fmu, opened):
     unit = opened(table1_fmu, y_b=1e-3, C_s=2e5)
-    names = ("y_b", "C_s", "der(y_b_dot)", "yaw_damper_force")
+    names = ("y_b", "C_s", "der(v_y_b)", "F_s")
     before = unit.get(*names)
     kept = unit.fmu.getFMUState()
     as_bytes = unit.fmu.serializeFMUState(kept)
@@ -310,7 +312,7 @@ def test_values_without_a_meaning_are_refused(table1_fmu, opened, name, value):
 
 def test_calculated_variables_cannot_be_set(table1_fmu, opened):
     unit = opened(table1_fmu)
-    for name in ("yaw_damper_force", "der(y_b)", "time"):
+    for name in ("F_s", "der(y_b)", "time"):
         with pytest.raises(FMICallException, match="error"):
             unit.set({name: 1.0})
     with pytest.raises(FMICallException, match="error"):

@@ -9,12 +9,13 @@ from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from yawdesign.design.conditions import model
+from yawdesign.design.motion import equations_of_motion, motion_source
 from yawdesign.output.fmi.compiler import CannotCompileError, compile_library, library_suffix, platform_name
 from yawdesign.output.fmi.description import IDENTIFIER, build_description, header, model_description
 from yawdesign.output.fmi.variables import variables
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.result import Result
-from yawdesign.response.equations import c_source, equations_of_motion
 from yawdesign.stability.verdict import given_damping
 
 REMEDY = "the FMU holds its C code only and must be compiled before it runs: see docs/fmu.md"
@@ -86,9 +87,9 @@ def write_fmu(problem: Problem, path: str | Path, *, replace: bool = False) -> F
 def _texts(problem: Problem) -> dict[str, bytes]:
     """Return the files of the FMU, but for the library."""
     p = {**problem.bogie.parameters(), "C_s": given_damping(problem), "v": max(problem.speeds)}
-    motion = equations_of_motion(p, kind=problem.bogie.kind, equations=problem.equations)
+    motion = equations_of_motion(p, model(problem))
     table = variables(motion, p)
-    source, sizes = c_source(motion)
+    source, sizes = motion_source(motion)
     frame = files("yawdesign.output.fmi").joinpath("fmi3.c").read_text(encoding="utf-8")
     token = f"{{{uuid.uuid5(uuid.NAMESPACE_OID, repr(table) + source + frame)}}}"
     texts = {

@@ -92,10 +92,11 @@ static void start(Bogie *bogie) {
 }
 
 static void evaluate(Bogie *bogie) {
-    const double *arguments[MOTION_ARGUMENTS] = {bogie->value};
-    double *results[MOTION_RESULTS] = {bogie->value + KNOWN};
-    double work[MOTION_WORK];
-    if (!bogie->current) motion(arguments, results, NULL, work, 0);
+    const double *arguments[MOTION_ARG] = {bogie->value};
+    double *results[MOTION_RES] = {bogie->value + KNOWN};
+    double work[MOTION_W];
+    casadi_int integers[MOTION_IW];
+    if (!bogie->current) motion(arguments, results, integers, work, 0);
     bogie->current = true;
 }
 
@@ -250,15 +251,16 @@ FMI3_Export fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, Refer
                                                     References knowns, size_t n_knowns, const fmi3Float64 seed[],
                                                     size_t n_seed, fmi3Float64 sensitivity[], size_t n_sensitivity) {
     Bogie *bogie = instance;
-    double direction[VARIABLES] = {0}, work[TANGENT_WORK];
-    const double *arguments[TANGENT_ARGUMENTS] = {bogie->value, direction};
-    double *results[TANGENT_RESULTS] = {direction + KNOWN};
+    double direction[VARIABLES] = {0}, work[TANGENT_W];
+    const double *arguments[TANGENT_ARG] = {bogie->value, direction};
+    double *results[TANGENT_RES] = {direction + KNOWN};
+    casadi_int integers[TANGENT_IW];
     if (n_seed != n_knowns || n_sensitivity != n_unknowns) return wrong(bogie, "seed or sensitivity has a wrong length");
     for (size_t i = 0; i < n_knowns; i++) {
         if (knowns[i] >= KNOWN) return wrong(bogie, "variable %u is not known", (unsigned)knowns[i]);
         direction[knowns[i]] = seed[i];
     }
-    tangent(arguments, results, NULL, work, 0);
+    tangent(arguments, results, integers, work, 0);
     for (size_t i = 0; i < n_unknowns; i++) {
         if (unknowns[i] >= VARIABLES) return wrong(bogie, "there is no variable %u", (unsigned)unknowns[i]);
         sensitivity[i] = direction[unknowns[i]];

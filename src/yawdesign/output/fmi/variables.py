@@ -3,17 +3,17 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
+from yawdesign.design.motion import IN_SERIES, LEAST_DAMPING, EquationsOfMotion
 from yawdesign.problem import PARAMETERS
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import Parameter
-from yawdesign.response.equations import DASHPOTS, LEAST_DAMPING, EquationsOfMotion
 
 _MOTION = {"y": ("m", "mm", "lateral displacement"), "phi": ("rad", "mrad", "yaw angle")}
 _BODIES = {"b": "bogie frame", "w": "wheelset", "m": "motor"}
 _ENDS = {"1": "front ", "2": "rear "}
 _OUTPUTS = {
-    "yaw_damper_stroke": ("m", "mm", "lengthening of one yaw damper, shortening of the other"),
-    "yaw_damper_force": ("N", "kN", "force of both yaw dampers together, positive with a positive stroke"),
+    "u_s": ("m", "mm", "displacement of the yaw dampers"),
+    "F_s": ("N", "kN", "force of both yaw dampers together"),
 }
 
 
@@ -65,7 +65,7 @@ def variables(motion: EquationsOfMotion, values: Mapping[str, float]) -> list[Va
     known = [
         *(_parameter(name, values[name]) for name in motion.parameters),
         *(_input(name) for name in motion.inputs),
-        *_states(motion.states),
+        *_states(motion),
     ]
     first = len(motion.parameters) + len(motion.inputs)
     unknown = [
@@ -86,7 +86,7 @@ def _parameter(name: str, value: float) -> Variable:
         unit=row.si,
         shown=row.unit,
         start=float(value),
-        least=LEAST_DAMPING if name in DASHPOTS else least,
+        least=LEAST_DAMPING if name in IN_SERIES else least,
         greatest=greatest,
     )
 
@@ -113,25 +113,24 @@ def _input(name: str) -> Variable:
     )
 
 
-def _states(names: tuple[str, ...]) -> Iterator[Variable]:
-    for name in names:
-        if name.endswith("_dashpot"):
-            text = f"stroke of the dashpot of the {_damper(name.removesuffix('_dashpot'))}, without its joints"
-            yield Variable(
-                name=name, description=text, causality="local", unit="m", shown="mm", start=0.0, nominal=1e-3
-            )
-        elif name.endswith("_dot"):
-            coordinate = _coordinate(name.removesuffix("_dot"))
-            text = f"rate of the {coordinate.description}"
-            unit = f"{coordinate.unit}/s"
-            yield replace(coordinate, name=name, description=text, unit=unit, shown="", nominal=1e-2)
-        else:
-            yield _coordinate(name)
+def _states(motion: EquationsOfMotion) -> Iterator[Variable]:
+    moves = len(motion.states) - len(motion.dashpots)
+    for name in motion.states[:moves]:
+        yield _velocity(name) if name.startswith("v_") else _coordinate(name)
+    for name, damper in zip(motion.states[moves:], motion.dashpots, strict=True):
+        text = f"stroke of the dashpot of the {_damper(damper)}, without its joints"
+        yield Variable(name=name, description=text, causality="local", unit="m", shown="mm", start=0.0, nominal=1e-3)
 
 
 def _damper(name: str) -> str:
-    text = name.replace("_", " ")
-    return f"{_ENDS[text[-1]]}{text[:-1]}" if text[-1] in _ENDS else f"{text}s"
+    return f"{_ENDS[name[-1]]}{name[:-1]}" if name[-1] in _ENDS else f"{name}s"
+
+
+def _velocity(name: str) -> Variable:
+    """Return the variable of a velocity such as v_y_b."""
+    x = _coordinate(name.removeprefix("v_"))
+    text, unit = f"rate of the {x.description}", f"{x.unit}/s"
+    return replace(x, name=name, description=text, unit=unit, shown="", nominal=1e-2)
 
 
 def _coordinate(name: str) -> Variable:
@@ -145,7 +144,7 @@ def _coordinate(name: str) -> Variable:
 
 def _derivative(state: Variable, reference: int) -> Variable:
     """Return the derivative of a state; only accelerations are outputs, the other ones stand among the states."""
-    acceleration = state.name.endswith("_dot")
+    acceleration = state.name.startswith("v_")
     return Variable(
         name=f"der({state.name})",
         description=f"time derivative of {state.name}",

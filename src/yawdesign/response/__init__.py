@@ -1,1 +1,0 @@
-"""How the bogie moves: track, frequency response, motion in time."""
