@@ -138,7 +138,9 @@ def export(
     inputs: Annotated[
         str | None, typer.Option(metavar="C_s,K_m,v", help="Parameters that stay inputs; all, if not given.")
     ] = None,
-    only: Annotated[str | None, typer.Option(metavar="NAMES", help="Functions to write; all, if not given.")] = None,
+    only: Annotated[
+        str | None, typer.Option(metavar="NAMES", help="Functions, or kinds of files, to write; all.")
+    ] = None,
     formats: Annotated[str | None, typer.Option(metavar="NAMES", help="Kinds of files to write; all.")] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace the files of an earlier export.")] = False,
     as_json: AsJson = False,
