@@ -18,7 +18,7 @@ from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.result import Result
 from yawdesign.stability.verdict import given_damping
 
-REMEDY = "the FMU holds its C code only and must be compiled before it runs: see docs/fmu.md"
+REMEDY = "the FMU holds its C code only: before it runs it must be compiled, such as with `fmpy compile`"
 
 
 @dataclass(frozen=True, repr=False)

@@ -21,6 +21,12 @@
 
 #include "model.h"
 
+#if defined __GNUC__
+/* Generated code, and stubs for what this unit does not provide */
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#endif
+
 #define CASADI_SYMBOL_EXPORT static
 #include "motion.c"
 
@@ -113,7 +119,6 @@ FMI3_Export fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3Strin
                                                       fmi3Boolean visible, fmi3Boolean logging,
                                                       fmi3InstanceEnvironment environment, fmi3LogMessageCallback log) {
     Bogie *bogie = calloc(1, sizeof *bogie);
-    (void)name, (void)resources, (void)visible;
     if (!bogie) return NULL;
     bogie->logging = logging;
     bogie->log = log;
@@ -128,7 +133,6 @@ FMI3_Export fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3Strin
 FMI3_Export void fmi3FreeInstance(fmi3Instance instance) { free(instance); }
 
 FMI3_Export fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t n, const fmi3String names[]) {
-    (void)n, (void)names;
     ((Bogie *)instance)->logging = on;
     return fmi3OK;
 }
@@ -146,7 +150,6 @@ FMI3_Export fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time) {
 FMI3_Export fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean tolerance_defined,
                                                    fmi3Float64 tolerance, fmi3Float64 start_time,
                                                    fmi3Boolean stop_defined, fmi3Float64 stop_time) {
-    (void)tolerance_defined, (void)tolerance, (void)stop_defined, (void)stop_time;
     return fmi3SetTime(instance, start_time);
 }
 
@@ -161,14 +164,12 @@ NOTHING_TO_DO(fmi3Terminate)
 FMI3_Export fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *again, fmi3Boolean *terminate,
                                                 fmi3Boolean *nominals_changed, fmi3Boolean *states_changed,
                                                 fmi3Boolean *next_event_defined, fmi3Float64 *next_event) {
-    (void)instance, (void)next_event;
     *again = *terminate = *nominals_changed = *states_changed = *next_event_defined = false;
     return fmi3OK;
 }
 
 FMI3_Export fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean no_way_back,
                                                    fmi3Boolean *event_mode, fmi3Boolean *terminate) {
-    (void)instance, (void)no_way_back;
     *event_mode = *terminate = false;
     return fmi3OK;
 }
@@ -231,19 +232,16 @@ FMI3_Export fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, 
 }
 
 FMI3_Export fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *n) {
-    (void)instance;
     *n = STATES;
     return fmi3OK;
 }
 
 FMI3_Export fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *n) {
-    (void)instance;
     *n = 0;
     return fmi3OK;
 }
 
 FMI3_Export fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 indicators[], size_t n) {
-    (void)indicators;
     return n ? wrong(instance, "there are no event indicators, not %zu", n) : fmi3OK;
 }
 
@@ -286,13 +284,11 @@ FMI3_Export fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state
 }
 
 FMI3_Export fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *state) {
-    (void)instance;
     if (state) free(*state), *state = NULL;
     return fmi3OK;
 }
 
 FMI3_Export fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state, size_t *size) {
-    (void)state;
     *size = sizeof ((Bogie *)instance)->value;
     return fmi3OK;
 }
@@ -321,9 +317,6 @@ FMI3_Export fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3
     ABSENT(fmi3Get##type, References r, size_t n, fmi3##type v[], size_t m) \
     ABSENT(fmi3Set##type, References r, size_t n, const fmi3##type v[], size_t m)
 
-#if defined __GNUC__
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-#endif
 ABSENT_TYPE(Float32)
 ABSENT_TYPE(Int8)
 ABSENT_TYPE(UInt8)
