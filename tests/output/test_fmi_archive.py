@@ -268,3 +268,25 @@ def test_export_on_the_command_line(tmp_path, compiler):
     assert ("note: bogie.fmu: no C compiler was found" in done.stderr) == (not compiler)
     assert sorted(file.name for file in (tmp_path / "out").iterdir()) == ["bogie.fmu", "manifest.json"]
     assert validate_fmu(str(tmp_path / "out" / "bogie.fmu")) == []
+
+
+@pytest.mark.parametrize(
+    ("only", "formats", "files"),
+    [
+        ("fmu", None, {"bogie.fmu"}),
+        (["fmu"], ["mat"], {"bogie.fmu", "state_space.mat"}),
+        ("stability_margin,casadi,fmu", None, {"bogie.fmu", "stability_margin.casadi"}),
+        ("stability_margin", ["fmu"], {"bogie.fmu"}),
+    ],
+)
+def test_a_kind_of_file_among_the_functions(tmp_path, only, formats, files):
+    export = yd.export(TABLE_1, tmp_path / "out", only=only, formats=formats)
+    assert set(export.files) == {*files, "manifest.json"}
+
+
+def test_an_export_without_damping_leaves_the_fmu_out(tmp_path):
+    export = yd.export(TABLE_1.replace(C_s=None), tmp_path / "out", only="stability_margin", formats="casadi,fmu")
+    assert "bogie.fmu" not in export.files
+    assert any("bogie.fmu left out" in note and "C_s is missing" in note for note in export.notes)
+    with pytest.raises(yd.ProblemError, match="C_s is missing"):
+        yd.export(TABLE_1.replace(C_s=None), tmp_path / "other", only="fmu")

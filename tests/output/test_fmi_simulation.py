@@ -1,6 +1,7 @@
 """The FMU in FMPy: it moves as the matrix exponential says, with every parameter and with parameters that change."""
 
 import ctypes
+import itertools
 
 import fmpy
 import numpy as np
@@ -86,9 +87,10 @@ class Unit:
 @pytest.fixture
 def opened(request, tmp_path):
     """Return a function that opens an FMU."""
+    count = itertools.count()
 
     def open_it(path, **values):
-        unit = Unit(path, tmp_path)
+        unit = Unit(path, tmp_path / f"instance {next(count)}")
         request.addfinalizer(unit.fmu.freeInstance)
         unit.set(values)
         return unit
@@ -272,6 +274,16 @@ def test_a_state_can_be_kept_and_taken_up_again(table1_fmu, opened):
     unit.fmu.reset()
     unit.fmu.setFMUState(unit.fmu.deserializeFMUState(as_bytes))
     assert unit.get(*names) == before
+
+
+def test_two_bogies_in_one_process(table1_fmu, opened, tmp_path):
+    path = tmp_path / "trailer.fmu"
+    yd.write_fmu(TRAILER, path)
+    units = [opened(table1_fmu), opened(str(path)), opened(table1_fmu, C_s=5e4)]
+    rng = np.random.default_rng(6)
+    for unit, (problem, changes) in zip(units, [(TABLE_1, {}), (TRAILER, {}), (TABLE_1, {"C_s": 5e4})], strict=True):
+        A, B, _ = matrices(problem, **changes)
+        assert_derivatives(unit, A, B, rng.normal(size=len(A)), rng.normal(size=4))
 
 
 def test_directional_derivatives_are_exact(written, opened):
