@@ -68,8 +68,8 @@ def equations_of_motion(p: Parameters, model: Mapping[str, str]) -> EquationsOfM
     A, B, C, _ = state_space_matrices(symbols, symbols["C_s"], model).values()
     dx, y = ca.densify(A @ x + B @ u), ca.densify((C @ x)[-2:])
     function = ca.Function("equations_of_motion", [vector, u, x], [dx, y], ["p", "u", "x"], ["dx", "y"])
-    dashpots = StateSpace(physical(bogie(symbols, **model))).dashpots
-    return EquationsOfMotion(names, along.inputs, along.states, tuple(dashpots), along.outputs[-2:], function)
+    dashpots = tuple(link.name for link, _ in StateSpace(physical(bogie(symbols, **model))).strokes)
+    return EquationsOfMotion(names, along.inputs, along.states, dashpots, along.outputs[-2:], function)
 
 
 def motion_source(motion: EquationsOfMotion) -> tuple[str, Mapping[str, int]]:

@@ -123,7 +123,7 @@ def _states(motion: EquationsOfMotion) -> Iterator[Variable]:
 
 
 def _damper(name: str) -> str:
-    return f"{_ENDS[name[-1]]}{name[:-1]}" if name[-1] in _ENDS else f"{name}s"
+    return f"{_ENDS[name[-1]]}{name[:-1].strip()}" if name[-1] in _ENDS else f"{name}s"
 
 
 def _velocity(name: str) -> Variable:
