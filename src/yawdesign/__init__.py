@@ -10,7 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from yawdesign.design.forward import ForwardDesign, design
+    from yawdesign.design.functions import functions
     from yawdesign.design.optimise import Optimum, optimise
+    from yawdesign.design.state_space import StateSpaceModel, state_space
+    from yawdesign.output.export.write import Export, export
+    from yawdesign.output.fmi.archive import Fmu, write_fmu
     from yawdesign.output.plots import plot
     from yawdesign.problem import (
         PARAMETERS,
@@ -53,7 +57,11 @@ _HOMES = {
     "yawdesign.response.synthesis": ("SpectrumCheck", "spectrum_check"),
     "yawdesign.response.track": ("Band", "Harmonic", "RandomTrack", "Sinusoid"),
     "yawdesign.design.forward": ("ForwardDesign", "design"),
+    "yawdesign.design.functions": ("functions",),
     "yawdesign.design.optimise": ("Optimum", "optimise"),
+    "yawdesign.design.state_space": ("StateSpaceModel", "state_space"),
+    "yawdesign.output.export.write": ("Export", "export"),
+    "yawdesign.output.fmi.archive": ("Fmu", "write_fmu"),
     "yawdesign.output.plots": ("plot",),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
@@ -66,6 +74,8 @@ __all__ = [
     "Curve",
     "DamperComponent",
     "Design",
+    "Export",
+    "Fmu",
     "ForwardDesign",
     "FrequencyResponse",
     "Harmonic",
@@ -80,11 +90,14 @@ __all__ = [
     "SpectrumCheck",
     "SpeedRange",
     "Stability",
+    "StateSpaceModel",
     "StationaryResponse",
     "Variable",
     "damper_component",
     "design",
+    "export",
     "frequency_response",
+    "functions",
     "load",
     "loads",
     "optimise",
@@ -95,8 +108,10 @@ __all__ = [
     "simulate",
     "spectrum_check",
     "stability",
+    "state_space",
     "stationary_response",
     "table1",
+    "write_fmu",
 ]
 
 

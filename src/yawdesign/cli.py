@@ -198,6 +198,31 @@ def _progress() -> Iterator[Any]:
 
 
 @app.command()
+def export(
+    file: ProblemFile,
+    to: Annotated[str, typer.Option(metavar="DIR", help="Folder to write; new or empty.", show_default=False)],
+    inputs: Annotated[
+        str | None, typer.Option(metavar="C_s,K_m,v", help="Parameters that stay inputs; all, if not given.")
+    ] = None,
+    only: Annotated[
+        str | None, typer.Option(metavar="NAMES", help="Functions, or kinds of files, to write; all.")
+    ] = None,
+    formats: Annotated[str | None, typer.Option(metavar="NAMES", help="Kinds of files to write; all.")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace the files of an earlier export.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Write the model as functions for C, MATLAB and CasADi, with a manifest of their inputs and outputs."""
+    with _mistakes_shown():
+        problem = _read(file)
+        from yawdesign.output.export.write import export as write
+
+        result = write(problem, to, inputs=inputs, only=only, formats=formats, force=force)
+        for note in result.notes:
+            _tell(f"note: {note}")
+        _show(result, as_json, "export_tables")
+
+
+@app.command()
 def new(
     file: Annotated[str, typer.Argument(help="The file to write.")] = "problem.yaml",
     kind: Annotated[str, typer.Option(help="power or trailer.")] = "power",

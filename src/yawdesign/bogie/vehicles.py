@@ -37,7 +37,8 @@ def _frame(p: Parameters) -> list[Element]:
         Link((Spring(p["K_1y"]),), {"y_b": 1, "y_w": -1}, lever={"phi_b": p["a"]}),
         Link((Spring(p["K_1x"] * arm_1),), {"phi_b": 1, "phi_w": -1}),
     )
-    lateral_damper = Link((Maxwell(p["K_dt"] / 2, p["C_t"] / 2),), {"y_b": 1}, lever={"phi_b": p["b_0"]})
+    lateral = Maxwell(p["K_dt"] / 2, p["C_t"] / 2)
+    lateral_damper = Link((lateral,), {"y_b": 1}, lever={"phi_b": p["b_0"]}, name="lateral damper ")
     return [
         Mass("y_b", p["M_b"]),
         Mass("phi_b", p["J_b"]),
