@@ -60,4 +60,4 @@ class Block:
 
 def _simple(x: Any) -> Any:
     """Return a number where all points have the same."""
-    return float(x[0]) if (x == x[0]).all() else np.ascontiguousarray(x)
+    return float(x[0]) if x[0] == x[-1] and (x == x[0]).all() else np.ascontiguousarray(x)

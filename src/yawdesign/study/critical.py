@@ -102,7 +102,8 @@ def critical_field(block: Block, *, kind: str, equations: str) -> CriticalField:
     A, B, F = results[:na], results[na : na + nb], results[na + nb :]
     n = results.shape[1]
     isolated = isolate(F)
-    found = _crossings(A, B, isolated.owner, isolated.low, isolated.high)
+    with np.errstate(all="ignore"):  # what overflows has no small residual, and fails
+        found = _crossings(A, B, isolated.owner, isolated.low, isolated.high)
     rows = Rows(found.owner, found.C_s, n)
     critical, omega, direction, residual = map(rows.spread, found[1:])
     unstable, doubtful = _counted(A, B, critical, block.values["K_ds"])
@@ -142,8 +143,7 @@ def _refined(parts: _Parts, low: Float, high: Float) -> Float:
         below = (value < 0) == rising[active]
         low[active] = np.where(below, x[active], low[active])
         high[active] = np.where(below, high[active], x[active])
-        with np.errstate(all="ignore"):
-            new = x[active] - value / slope
+        new = x[active] - value / slope
         inside = (new > low[active]) & (new < high[active])
         new = np.where(inside, new, (low[active] + high[active]) / 2)
         moving = np.abs(new - x[active]) > CONVERGED * new

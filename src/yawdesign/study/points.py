@@ -21,6 +21,7 @@ from yawdesign.study.speeds import critical_speeds
 Bools = NDArray[np.bool_]
 
 LENGTH = 8192  # points that one thread looks at
+VERDICTS = 65536  # the same for verdicts, which need less memory a point
 
 
 def evaluate(question: Question, p: Mapping[str, Any], *, threads: int | None = None) -> Answers:
@@ -40,7 +41,7 @@ def evaluate(question: Question, p: Mapping[str, Any], *, threads: int | None = 
     -------
     Answers
     """
-    blocks = list(Block.split(p, LENGTH))
+    blocks = list(Block.split(p, VERDICTS if question.of == "stable" else LENGTH))
     workers = min(threads or os.cpu_count() or 1, len(blocks))
     if workers == 1:
         return _joined([_answer(question, block) for block in blocks])
