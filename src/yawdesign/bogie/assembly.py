@@ -83,6 +83,8 @@ class StateSpace:
         The entries that are not structurally zero.
     size : int
         Number of states.
+    strokes : list of str
+        The names of the links whose dashpot strokes the last states are.
     """
 
     def __init__(self, elements: Sequence[Single]) -> None:
@@ -90,6 +92,7 @@ class StateSpace:
         self.coordinates = tuple(masses)
         self.entries: StateEntries = {}
         self.size = 2 * len(masses)
+        self.strokes: list[str] = []
         self._place = {x: i for i, x in enumerate(self.coordinates)}
         self._masses = masses
         for i in range(len(masses)):
@@ -132,6 +135,7 @@ class StateSpace:
             return  # no damping, no force, no state
         stroke, rate = self.size, law.K / law.c
         self.size += 1
+        self.strokes.append(link.name)
         self._respond(link, law.K, 0)
         for x, force in link.force.items():
             self._push(x, stroke, times(-law.K, force))
