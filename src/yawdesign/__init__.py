@@ -26,6 +26,8 @@ if TYPE_CHECKING:
         schema,
         table1,
     )
+    from yawdesign.response.following import FollowedModes, follow_modes
+    from yawdesign.response.modes import Modes, modes
     from yawdesign.stability.verdict import Stability, stability
 
 __version__ = "0.1.0"
@@ -36,6 +38,8 @@ _HOMES = {
         *("load", "loads", "schema", "table1"),
     ),
     "yawdesign.stability.verdict": ("Stability", "stability"),
+    "yawdesign.response.following": ("FollowedModes", "follow_modes"),
+    "yawdesign.response.modes": ("Modes", "modes"),
     "yawdesign.design.forward": ("ForwardDesign", "design"),
     "yawdesign.design.optimise": ("Optimum", "optimise"),
     "yawdesign.output.plots": ("plot",),
@@ -47,7 +51,9 @@ __all__ = [
     "Bogie",
     "Curve",
     "Design",
+    "FollowedModes",
     "ForwardDesign",
+    "Modes",
     "Optimum",
     "Problem",
     "ProblemError",
@@ -55,8 +61,10 @@ __all__ = [
     "Stability",
     "Variable",
     "design",
+    "follow_modes",
     "load",
     "loads",
+    "modes",
     "optimise",
     "plot",
     "schema",

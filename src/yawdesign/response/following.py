@@ -1,9 +1,8 @@
 """Modes followed through a sweep of one parameter, each keeping its identity and its name."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import lru_cache
-from itertools import pairwise
+from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -16,10 +15,11 @@ from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import Parameter
-from yawdesign.response.linking import LOST, Link, Place, follow
+from yawdesign.response.linking import LOST, Place
 from yawdesign.response.modes import model_of, name_roots, parameters_at
 from yawdesign.response.names import groups_of, normalised, shares, unique_names
 from yawdesign.response.spectrum import Index, Motion, motion, parts, spectrum
+from yawdesign.response.walking import Encounter, walk
 from yawdesign.stability.modes import Complex, Float, backward_error
 from yawdesign.stability.verdict import EXACT, given_damping
 
@@ -28,7 +28,7 @@ SPEED_NAMES = ("v", "speed")
 
 @dataclass(frozen=True)
 class Meeting:
-    """Two modes that meet between two values of the parameter.
+    """Two modes that meet, or nearly, between two values of the parameter.
 
     Parameters
     ----------
@@ -36,12 +36,14 @@ class Meeting:
         The meeting lies between these values of the parameter.
     modes : tuple of str
         Who meets.
-    kind : {"become a pair", "become two real roots", "pass through each other", "cannot be told apart"}
-        What two roots do as the parameter goes from its first value to its last. Roots that pass through each other
-        come very close, and exchange their motions within a relative change of the parameter of 0.001. Those that cannot
-        be told apart coincide, as far as can be resolved; who is who afterwards is not known.
+    kind : {"become a pair", "become two real roots", "pass close by", "cannot be told apart"}
+        What two roots do as the parameter goes from its first value to its last. Two that pass close by come nearer
+        than 0.1 % of their size; they stay who they are, but their motions are then nearly one, or are exchanged. Two
+        that cannot be told apart coincide, as far as can be resolved; who is who afterwards is not known.
     eigenvalue : complex
         Where they meet [1/s].
+    distance : float
+        How near they come [1/s]; 0 for roots that meet.
     """
 
     low: float
@@ -49,6 +51,7 @@ class Meeting:
     modes: tuple[str, ...]
     kind: str
     eigenvalue: complex
+    distance: float
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -137,9 +140,8 @@ def follow_modes(problem: Problem, **axis: Sequence[float | str] | NDArray[np.fl
     paths = [_follow_part(values, matrices, states) for states in places]
     branches = np.hstack([path.s for path in paths])
     kept = np.flatnonzero(np.any(branches.imag >= 0, axis=0))
+    kept = kept[np.argsort(_size(branches[:, kept]), kind="stable")]
     names = _names(systems[0], places, paths, kept)
-    order = np.argsort(_size(branches[:, kept]), kind="stable")
-    kept, names = kept[order], tuple(names[k] for k in order)
     s = np.where(branches.imag >= 0, branches, np.nan)[:, kept]
     certainty = np.hstack([path.certainty for path in paths])[:, kept]
     label = {int(k): mode for k, mode in zip(kept, names, strict=True)}
@@ -167,7 +169,8 @@ def follow_modes(problem: Problem, **axis: Sequence[float | str] | NDArray[np.fl
 def _axis(problem: Problem, axis: Mapping[str, Any]) -> tuple[str, Parameter, Float]:
     """Return the one axis, its row of the table, and its values in SI."""
     if len(axis) != 1:
-        raise ProblemError(f"modes are followed along one parameter, not {len(axis)}: {', '.join(axis) or 'none given'}")
+        listed = ", ".join(axis) or "none given"
+        raise ProblemError(f"modes are followed along one parameter, not {len(axis)}: {listed}")
     (key, given), allowed = next(iter(axis.items())), (*SPEED_NAMES, *parameter_keys(problem.bogie.kind))
     key = {"lambda_": "lambda", "speed": "v"}.get(key, key)
     mistakes = Mistakes()
@@ -199,7 +202,7 @@ def _matrices(problem: Problem, name: str) -> Any:
     p, model = parameters_at(problem, problem.speeds[0]), model_of(problem)
     C_s = None if name == "C_s" else given_damping(problem)
 
-    @lru_cache(maxsize=None)
+    @cache
     def at(value: float) -> Motion:
         return motion({**p, name: value}, value if C_s is None else C_s, **model)
 
@@ -220,40 +223,37 @@ class _Path:
     share: Float
     twin: Index
     certainty: Float
-    meetings: tuple[tuple[Link, tuple[int, ...], complex], ...]
+    encounters: tuple[Encounter, ...]
 
 
 def _follow_part(values: Float, matrices: Callable[[float], Motion], states: Index) -> _Path:
-    @lru_cache(maxsize=None)
+    @cache
     def at(value: float) -> Place:
         matrix = matrices(value).matrix[np.ix_(states, states)]
         return Place(value, matrix, spectrum(matrix))
 
-    system = matrices(float(values[0]))
-    names = tuple(system.states[i] for i in states)
-    places = [at(float(value)) for value in values]
-    where = np.arange(len(states))
-    order, certainty, meetings = [where], [], []
-    for start, end in pairwise(places):
-        least = np.ones(len(states))
-        for step in follow(start, end, at):
-            least = np.fmin(least, step.certainty[where]) + 0 * step.certainty[where]
-            if step.meeting:
-                who = tuple(int(np.flatnonzero(where == k)[0]) for k in step.meeting)
-                meetings.append((step, who, complex(np.mean(at(step.low).spectrum.s[list(step.meeting)]))))
-            where = step.partner[where]
-        order.append(where)
-        certainty.append(least)
-    s = np.array([place.spectrum.s[k] for place, k in zip(places, order, strict=True)])
+    walked = walk(values, at)
+    given = np.flatnonzero(np.isin(walked.values, values))
+    # An order of the paths that does not depend on the direction of the walk.
+    sort = np.lexsort((-walked.s[given].imag.mean(axis=0), _size(walked.s[given])))
+    system, places = matrices(float(values[0])), [at(float(value)) for value in values]
+    order, names = walked.order[np.ix_(given, sort)], tuple(system.states[i] for i in states)
     share = [shares(place.spectrum, names, groups_of(system))[:, k] for place, k in zip(places, order, strict=True)]
-    return _Path(names, s, normalised(np.mean(share, axis=0)), _twins(places, order), np.array(certainty), tuple(meetings))
+    rank = np.argsort(sort)
+    return _Path(
+        states=names,
+        s=walked.s[np.ix_(given, sort)],
+        share=normalised(np.mean(share, axis=0)),
+        twin=_twins(places, order),
+        certainty=np.minimum.reduceat(walked.certainty, given[:-1])[:, sort],
+        encounters=tuple(replace(e, roots=tuple(rank[list(e.roots)].tolist())) for e in walked.encounters),
+    )
 
 
-def _twins(places: Sequence[Place], order: Sequence[Index]) -> Index:
-    """Return for each root the one that is its conjugate, itself where it is real; as at the point where most are."""
-    k = int(np.argmin([place.spectrum.real for place in places]))
-    inverse = np.argsort(order[k])
-    return np.asarray(inverse[places[k].spectrum.twin[order[k]]], dtype=np.intp)
+def _twins(places: Sequence[Place], order: NDArray[np.intp]) -> Index:
+    """Return for each path its conjugate, or itself where it is real: at the least of the values with most pairs."""
+    k = min(range(len(places)), key=lambda i: (places[i].spectrum.real, places[i].value))
+    return np.asarray(np.argsort(order[k])[places[k].spectrum.twin[order[k]]], dtype=np.intp)
 
 
 def _size(s: Complex) -> Float:
@@ -261,22 +261,22 @@ def _size(s: Complex) -> Float:
     return np.asarray(np.exp(np.mean(np.log(np.abs(s) + 1e-300), axis=0)))
 
 
-def _names(system: Motion, places: Sequence[Index], paths: Sequence[_Path], kept: Index) -> list[str]:
+def _names(system: Motion, places: Sequence[Index], paths: Sequence[_Path], kept: Index) -> tuple[str, ...]:
     owner = [path.states for path in paths for _ in path.states]
     start = np.cumsum([0, *(len(states) for states in places)])
     twin = np.concatenate([path.twin + first for path, first in zip(paths, start, strict=False)])
     s = np.hstack([path.s for path in paths])
     oscillates = np.mean(s.imag != 0, axis=0) > 0.5
     names = name_roots(system, owner, np.hstack([path.share for path in paths]), twin, oscillates)
-    return list(unique_names([names[k] for k in kept], _size(s[:, kept])))
+    return unique_names([names[k] for k in kept], _size(s[:, kept]))
 
 
 def _meetings(paths: Sequence[_Path], label: Mapping[int, str]) -> tuple[Meeting, ...]:
     found, first = [], 0
     for path in paths:
-        for step, who, s in path.meetings:
-            names = tuple(sorted({label[first + k] for k in who if first + k in label}))
-            found.append(Meeting(step.low, step.high, names, step.kind, s))
+        for e in path.encounters:
+            names = tuple(sorted({label[first + k] for k in e.roots if first + k in label}))
+            found.append(Meeting(min(e.low, e.high), max(e.low, e.high), names, e.kind, e.s, e.distance))
         first += len(path.states)
     return tuple(sorted(found, key=lambda meeting: meeting.low))
 

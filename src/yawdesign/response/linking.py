@@ -11,13 +11,11 @@ Roots are continuous in every parameter; that is what makes a root "the same". B
 Every one of these conditions reads the same from either end, so a path does not depend on the direction. Real roots of
 one part of a motion cannot pass each other without meeting; where two meet they leave the axis as a conjugate pair. By
 convention the larger real root belongs to the root above the axis.
-
-Two roots that hardly know of each other may exchange their motions within a sliver of the parameter, too narrow to see
-in any picture. There, and only there, the motion is followed and not the root: they pass through each other.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,17 +24,10 @@ from scipy.optimize import linear_sum_assignment
 from yawdesign.response.spectrum import Index, Spectrum
 from yawdesign.stability.modes import Complex, Float
 
-DOUBT = 0.25  # a partner must be predicted this many times better than the next best root
+DOUBT = 0.25  # largest error of a partner's prediction, relative to that of the next best root
 TURN = 0.5  # cosine of 60 degrees
 FINEST = 2.0**-30  # of a step, where halving ends
-NARROW = 1e-3  # change of the parameter, relative to it, within which roots may pass through each other
-ALIKE = 0.9  # biorthogonal product of eigenvectors that are the same motion
-PAIR, REAL, PASS, LOST = KINDS = (
-    "become a pair",
-    "become two real roots",
-    "pass through each other",
-    "cannot be told apart",
-)
+PAIR, REAL, NEAR, LOST = KINDS = ("become a pair", "become two real roots", "pass close by", "cannot be told apart")
 
 
 @dataclass(frozen=True)
@@ -65,7 +56,7 @@ class Link:
     meeting : tuple of int
         The roots of the first place that meet, or come too near each other to be told apart; empty if there are none.
     kind : str
-        What they do, one of `KINDS`.
+        What these do, one of `KINDS`.
     """
 
     low: float
@@ -92,8 +83,6 @@ def follow(start: Place, end: Place, at: Callable[[float], Place], share: float 
     step = link(start, end)
     if step.sure:
         return [step]
-    if abs(end.value - start.value) <= NARROW * abs(end.value) and (passing := _passing(start, end)):
-        return [passing]
     middle = between(start.value, end.value)
     if share < FINEST or middle in (start.value, end.value):
         return [_accepted(start.spectrum, end.spectrum, step)]
@@ -117,7 +106,7 @@ def link(start: Place, end: Place) -> Link:
     certainty = _certainty(error, partner)
     turned = _turned(p, q, partner)
     doubt = (certainty <= 1 - DOUBT) | turned
-    sure = not np.any(doubt) and bool(np.all(_overlap(p, q).argmax(axis=1) == partner))
+    sure = not np.any(doubt) and bool(np.all(_most_alike(p, q) == partner))
     return Link(start.value, end.value, partner, certainty, sure, tuple(int(k) for k in np.flatnonzero(doubt)), LOST)
 
 
@@ -127,14 +116,9 @@ def _distance(s: Complex, other: Complex) -> Complex:
 
 def _pairs(p: Spectrum, error: Float) -> Index:
     """Return the partners: real roots keep their order, those above the axis are matched with the least error."""
-    return np.concatenate([np.arange(p.real), _pairs_above(p, error)]).astype(np.intp)
-
-
-def _pairs_above(p: Spectrum, error: Float) -> Index:
-    """Return the partners of the roots above the axis, and of their conjugates."""
     above = p.real + (len(p.s) - p.real) // 2
     _, chosen = linear_sum_assignment(error[p.real : above, p.real : above])
-    return np.concatenate([chosen + p.real, chosen + above])
+    return np.concatenate([np.arange(p.real), chosen + p.real, chosen + above]).astype(np.intp)
 
 
 def _certainty(error: Float, partner: Index) -> Float:
@@ -159,27 +143,13 @@ def _turned(p: Spectrum, q: Spectrum, partner: Index) -> NDArray[np.bool_]:
     return out
 
 
-def _overlap(p: Spectrum, q: Spectrum) -> Float:
-    """Return how much the eigenvectors of each root of p are those of each root of q.
+def _most_alike(p: Spectrum, q: Spectrum) -> Index:
+    """Return for each root the one whose eigenvectors are most like its own.
 
     The products of left and right eigenvectors of two places do not depend on units, and each row of them sums to 1.
     """
-    return np.asarray(np.abs((p.left.T @ q.right) * (q.left.T @ p.right).T))
-
-
-def _passing(start: Place, end: Place) -> Link | None:
-    """Return the link over a narrow step that pairs equal motions; None if there are no equal ones."""
-    p, q = start.spectrum, end.spectrum
-    if p.real != q.real:
-        return None
-    alike = _overlap(p, q)
-    _, real = linear_sum_assignment(-alike[: p.real, : p.real])
-    partner = np.concatenate([real, _pairs_above(p, -alike)]).astype(np.intp)
-    certainty = np.minimum(1, alike[np.arange(len(partner)), partner])
-    if np.any(certainty < ALIKE):
-        return None
-    moved = tuple(int(k) for k in np.flatnonzero(partner != _pairs(p, np.abs(_distance(p.s, q.s)))))
-    return Link(start.value, end.value, partner, certainty, True, moved, PASS)
+    product = np.abs((p.left.T @ q.right) * (q.left.T @ p.right).T)
+    return np.asarray(product.argmax(axis=1), dtype=np.intp)
 
 
 def _at_a_meeting(start: Place, end: Place) -> Link:
@@ -193,7 +163,8 @@ def _at_a_meeting(start: Place, end: Place) -> Link:
         meeting = tuple(int(backwards[k]) for k in meeting)
     certainty = np.ones(len(partner))
     certainty[list(meeting)] = np.nan
-    return Link(start.value, end.value, partner.astype(np.intp), certainty, False, meeting, PAIR if p.real > q.real else REAL)
+    kind = PAIR if p.real > q.real else REAL
+    return Link(start.value, end.value, partner.astype(np.intp), certainty, False, meeting, kind)
 
 
 def _merge(p: Spectrum, q: Spectrum) -> tuple[Index, tuple[int, ...]]:
@@ -201,7 +172,7 @@ def _merge(p: Spectrum, q: Spectrum) -> tuple[Index, tuple[int, ...]]:
     lost: list[int] = []
     for _ in range((p.real - q.real) // 2):
         left = [k for k in range(p.real) if k not in lost]
-        gap = [_cost_without(p, q, (*lost, a, b)) for a, b in zip(left, left[1:], strict=False)]
+        gap = [_cost_without(p, q, (*lost, a, b)) for a, b in pairwise(left)]
         k = int(np.argmin(gap))
         lost += [left[k], left[k + 1]]
     return _matched_without(p, q, tuple(sorted(lost)))[0], tuple(sorted(lost))

@@ -8,6 +8,7 @@ import numpy as np
 import scipy.linalg as sl
 
 from yawdesign.bogie.characteristic import characteristic
+from yawdesign.bogie.polynomials import Polynomial
 from yawdesign.bogie.vehicles import Parameters
 from yawdesign.problem import Problem
 from yawdesign.problem.result import Result
@@ -136,13 +137,9 @@ def modes_at(p: Parameters, C_s: float, *, kind: str, equations: str) -> tuple[N
     found = [spectrum(system.matrix[np.ix_(states, states)]) for states in places]
     names = _names(system, places, found)
     polynomial = characteristic(p, kind=kind, equations=equations).full(C_s)
-    made = [
-        _mode(system, states, part, k, float(p["a"]), float(backward_error(polynomial, part.s[k])))
-        for states, part in zip(places, found, strict=True)
-        for k in _upper(part)
-    ]
-    named = [NamedMode(**{**fields, "name": name}) for fields, name in zip(made, names, strict=True)]
-    return tuple(sorted(named, key=lambda mode: (mode.decay_rate, mode.frequency)))
+    roots = [(states, part, k) for states, part in zip(places, found, strict=True) for k in _upper(part)]
+    made = [_mode(name, system, *root, float(p["a"]), polynomial) for name, root in zip(names, roots, strict=True)]
+    return tuple(sorted(made, key=lambda mode: (mode.decay_rate, mode.frequency)))
 
 
 def _upper(part: Spectrum) -> range:
@@ -185,27 +182,26 @@ def name_roots(
     groups = groups_of(system)
     room = [sum(group(state) == name for state in system.states) for name in groups]
     chosen = assign_groups(share, room, twin)
-    return [
-        stem(groups[i], states, bool(waves)) for i, states, waves in zip(chosen, owner, oscillates, strict=True)
-    ]
+    return [stem(groups[i], states, bool(waves)) for i, states, waves in zip(chosen, owner, oscillates, strict=True)]
 
 
 def _mode(
-    system: Motion, states: Index, part: Spectrum, k: int, arm: float, residual: float
-) -> dict[str, object]:
+    name: str, system: Motion, states: Index, part: Spectrum, k: int, arm: float, polynomial: Polynomial
+) -> NamedMode:
     s = complex(part.s[k])
     vector = whole_vector(system.matrix, states, s, part.right[:, k])
     left = np.zeros(len(system.matrix), dtype=complex)
     left[states] = part.left[:, k]
-    return {
-        "eigenvalue": s,
-        "frequency": s.imag / (2 * np.pi),
-        "damping_ratio": -s.real / abs(s) if s else 0.0,
-        "decay_rate": -s.real,
-        "shape": _shape(system, vector, arm),
-        "participation": _participation(system, left, vector),
-        "residual": max(residual, _eigenvector_error(system.matrix, s, vector)),
-    }
+    return NamedMode(
+        frequency=s.imag / (2 * np.pi),
+        damping_ratio=-s.real / abs(s) if s else 0.0,
+        decay_rate=-s.real,
+        name=name,
+        eigenvalue=s,
+        shape=_shape(system, vector, arm),
+        participation=_participation(system, left, vector),
+        residual=max(float(backward_error(polynomial, part.s[k])), _eigenvector_error(system.matrix, s, vector)),
+    )
 
 
 def _shape(system: Motion, vector: Complex, arm: float) -> dict[str, complex]:

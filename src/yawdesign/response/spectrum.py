@@ -7,6 +7,7 @@ part.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 import scipy.linalg as sl
@@ -59,7 +60,7 @@ def parts(pattern: NDArray[np.bool_]) -> tuple[Index, ...]:
 
 @dataclass(frozen=True)
 class Spectrum:
-    """Eigenvalues of one part of a motion: the real ones falling, then those above the real axis, then their conjugates.
+    """Eigenvalues of one part of a motion: the real ones falling, those above the real axis, then their conjugates.
 
     Parameters
     ----------
@@ -90,7 +91,7 @@ class Spectrum:
 
 def spectrum(matrix: Float) -> Spectrum:
     """Return the spectrum of a real matrix."""
-    s, w, v = sl.eig(matrix, left=True, right=True)
+    s, w, v = cast(tuple[Complex, Complex, Complex], sl.eig(matrix, left=True, right=True))
     real = np.flatnonzero(s.imag == 0)
     real = real[np.argsort(-s[real].real, kind="stable")]
     above = np.flatnonzero(s.imag > 0)
@@ -100,7 +101,7 @@ def spectrum(matrix: Float) -> Spectrum:
     w = np.hstack([w[:, real], w[:, above], w[:, above].conj()]).conj()
     scale = np.sum(w * v, axis=0)
     # Where two roots coincide the product vanishes; the vectors then say nothing, but they stay finite.
-    return Spectrum(s, v, w / np.where(scale == 0, 1, scale), len(real))
+    return Spectrum(s, v, np.asarray(w / np.where(scale == 0, 1, scale), dtype=complex), len(real))
 
 
 def whole_vector(matrix: Float, states: Index, s: complex, vector: Complex) -> Complex:
