@@ -9,7 +9,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # What draws which kind of result, as module and function.
-DRAWN_BY: dict[str, tuple[str, str]] = {}
+DRAWN_BY: dict[str, tuple[str, str]] = {
+    "FollowedModes": ("yawdesign.output.mode_plots", "mode_paths"),
+    "Modes": ("yawdesign.output.mode_plots", "mode_shape"),
+}
 
 
 def plot(result: Any, ax: "Axes | None" = None, **options: Any) -> "Axes":
