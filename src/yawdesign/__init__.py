@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from yawdesign.design.forward import ForwardDesign, design
     from yawdesign.design.optimise import Optimum, optimise
+    from yawdesign.output.animation import animate
     from yawdesign.output.plots import plot
     from yawdesign.problem import (
         PARAMETERS,
@@ -42,6 +43,7 @@ _HOMES = {
     "yawdesign.response.modes": ("Modes", "modes"),
     "yawdesign.design.forward": ("ForwardDesign", "design"),
     "yawdesign.design.optimise": ("Optimum", "optimise"),
+    "yawdesign.output.animation": ("animate",),
     "yawdesign.output.plots": ("plot",),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
@@ -60,6 +62,7 @@ __all__ = [
     "SpeedRange",
     "Stability",
     "Variable",
+    "animate",
     "design",
     "follow_modes",
     "load",

@@ -1,5 +1,6 @@
 """Pictures of modes: a shape in plan view, the root locus, damping or frequency along a parameter."""
 
+import cmath
 import math
 from typing import TYPE_CHECKING, Any
 
@@ -32,21 +33,22 @@ def mode_shape(result: "Modes", ax: "Axes | None" = None, *, mode: str | None = 
     mode : str, optional
         Its name; the least damped one if not given.
     phase : float
-        Of the cycle [rad].
+        Of the cycle [rad]; a mode that does not oscillate has died out to 1.5 % after 2 pi.
     """
     from matplotlib.patches import Polygon
 
     ax = new_axes(ax)
     chosen = find_mode(result, mode)
     _track(ax, result)
+    factor = cmath.exp(1j * phase) if chosen.frequency else complex(math.exp(-phase / 1.5))
     for body in bodies(result, chosen):
         for outline in body.outlines:
             at_rest = [(body.x + x, y) for x, y in outline]
             ax.add_patch(Polygon(at_rest, closed=True, fill=False, edgecolor=REST, linewidth=1.0, zorder=1))
-            moved = _placed(body, outline, phase)
+            moved = _placed(body, outline, factor)
             colour = COLOURS[body.kind]
             ax.add_patch(Polygon(moved, closed=True, facecolor=colour, edgecolor="black", alpha=0.75, zorder=2))
-    ax.set_title(f"{caption(chosen)}\n{subtitle(result)}; amplitude at will", fontsize="medium")
+    ax.set_title(f"{caption(chosen)}\n{subtitle(result)}; amplitude not to scale", fontsize="medium")
     return ax
 
 
@@ -59,9 +61,8 @@ def _track(ax: "Axes", result: "Modes") -> None:
     ax.text(length - 0.85, -width + 0.14, "direction of travel", ha="right", va="center", fontsize="small")
 
 
-def _placed(body: Body, outline: Any, phase: float) -> list[tuple[float, float]]:
-    turn = complex(math.cos(phase), math.sin(phase))
-    y, phi = (body.y * turn).real, (body.phi * turn).real
+def _placed(body: Body, outline: Any, factor: complex) -> list[tuple[float, float]]:
+    y, phi = (body.y * factor).real, (body.phi * factor).real
     c, s = math.cos(phi), math.sin(phi)
     return [(body.x + c * px - s * py, y + s * px + c * py) for px, py in outline]
 
@@ -121,8 +122,9 @@ def _root_locus(result: "FollowedModes", ax: "Axes", shown: list[int], widest: f
     values, label = axis_in_unit(result)
     norm = (LogNorm if _is_geometric(values) else Normalize)(values.min(), values.max())
     re, hz = result.eigenvalues.real, result.frequency
-    right = max(4.0, 1.15 * float(np.nanmax(re[:, shown])) + 2)
+    right = max(0.5 * widest, 1.15 * float(np.nanmax(re[:, shown])))  # room for names on the right
     ax.axvspan(-widest, 0, color=STABLE, zorder=0)
+    ax.axvspan(0, right, color=UNSTABLE, zorder=0)
     ax.axvline(0, color="0.3", linewidth=1)
     for k in shown:
         points = np.column_stack([re[:, k], hz[:, k]])
@@ -142,26 +144,32 @@ def _root_locus(result: "FollowedModes", ax: "Axes", shown: list[int], widest: f
     _label_ends(ax, result, inside, top)
     if ax.figure is not None:
         ax.figure.colorbar(lines, ax=ax, label=label)
-    ax.set_title("Root locus: ○ first value, ● last value; stable on the left", fontsize="medium")
+    for x, text, align in ((-0.5, "stable", "right"), (0.5, "unstable", "left")):
+        ax.text(x, 0.98 * top, text, ha=align, va="top", fontsize="small", color="0.4")
+    ax.set_title("Root locus: ○ first value, ● last value", fontsize="medium")
     return ax
 
 
 def _label_ends(ax: "Axes", result: "FollowedModes", inside: list[int], top: float) -> None:
-    """Write the names beside the ends of the paths, none over another."""
+    """Write the names beside the ends of the paths; where these are crowded, in a column on the right."""
     left, right = ax.get_xlim()
-    taken: list[tuple[float, float]] = []
-    for k in sorted(inside, key=lambda k: result.frequency[-1, k] if result.frequency[-1, k] >= 0 else -1.0):
-        seen = np.flatnonzero(result.eigenvalues[:, k].real > left)
-        if not seen.size:
+    ends = {}
+    for k in inside:
+        last = np.flatnonzero(result.eigenvalues[:, k].real > left)[-1]
+        ends[k] = (float(result.eigenvalues[last, k].real), float(result.frequency[last, k]))
+    height = 0.0
+    for k in sorted(ends, key=lambda k: (ends[k][1], ends[k][0])):
+        x, y = ends[k]
+        near = [
+            k != m and abs(x - far) < 0.3 * (right - left) and abs(y - up) < 0.08 * top for m, (far, up) in ends.items()
+        ]
+        if not any(near):
+            ax.annotate(result.names[k], (x, y), (8, 0), textcoords="offset points", fontsize="x-small", va="center")
             continue
-        x, y = float(result.eigenvalues[seen[-1], k].real), float(result.frequency[seen[-1], k])
-        room = y
-        while any(abs(room - other) < 0.042 * top and abs(x - far) < 0.45 * (right - left) for far, other in taken):
-            room += 0.014 * top
-        taken.append((x, room))
-        where = {"xytext": (8, 0), "textcoords": "offset points"} if room == y else {"xytext": (x + 1.5, room)}
-        line = {} if room == y else {"arrowprops": {"arrowstyle": "-", "color": "0.5", "linewidth": 0.6}}
-        ax.annotate(result.names[k], (x, y), fontsize="x-small", va="center", **where, **line)
+        height = max(height, y - 0.05 * top)
+        line = {"arrowstyle": "-", "color": "0.5", "linewidth": 0.6}
+        ax.annotate(result.names[k], (x, y), (0.06 * right, height), fontsize="x-small", va="center", arrowprops=line)
+        height += 0.05 * top
 
 
 def _over_parameter(result: "FollowedModes", ax: "Axes", shown: list[int], of: str, target: float | None) -> "Axes":
@@ -179,7 +187,7 @@ def _over_parameter(result: "FollowedModes", ax: "Axes", shown: list[int], of: s
     if _is_geometric(values):
         ax.set_xscale("log")
     ax.grid(alpha=0.3)
-    ax.legend(fontsize="x-small", ncols=2)
+    ax.legend(fontsize="small", loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
     return ax
 
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from yawdesign.problem import ProblemError
+from yawdesign.problem import ProblemError, format_quantity
 from yawdesign.problem.diagnostics import unknown_key
 
 if TYPE_CHECKING:
@@ -99,4 +99,4 @@ def caption(mode: "NamedMode") -> str:
 
 def subtitle(result: "Modes") -> str:
     """Return the operating point, in one line."""
-    return f"{3.6 * result.speed:.4g} km/h, C_s = {result.C_s / 1e3:,.4g} kN·s/m".replace(",", " ")
+    return f"{format_quantity(result.speed, 'km/h', 4)}, C_s = {format_quantity(result.C_s, 'kN·s/m', 4)}"
