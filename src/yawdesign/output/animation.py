@@ -100,16 +100,20 @@ def _svg(result: "Modes", mode: "NamedMode") -> str:
     shown = bodies(result, mode)
     rails = [_line(-length, length, side * SCALE * result.parameters["b"]) for side in (1, -1)]
     at_rest = [_group(body, f'fill="none" stroke="{REST}"', body.x, 0.0, 0.0) for body in shown]
-    lines = [f"{caption(mode)} ({subtitle(result)})", "amplitude not to scale; direction of travel: to the right"]
     texts = [
-        f'<text x="0" y="{y:.1f}" text-anchor="middle" font-size="11" font-family="sans-serif">{line}</text>'
-        for y, line in ((-width - 8, lines[0]), (width + 16, lines[1]))
+        f'<text x="0" y="{y:.1f}" text-anchor="middle" font-size="12" font-family="sans-serif">{line}</text>'
+        for y, line in (
+            (-width - 20, caption(mode)),
+            (-width - 4, subtitle(result)),
+            (width + 8, "amplitude not to scale; direction of travel: to the right"),
+        )
     ]
-    box = f"{-length:.1f} {-width - 24:.1f} {2 * length:.1f} {2 * width + 48:.1f}"
+    box = f"{-length:.1f} {-width - 36:.1f} {2 * length:.1f} {2 * width + 52:.1f}"
+    size = f'width="{2 * length:.0f}" height="{2 * width + 52:.0f}"'
     script = SCRIPT.replace("PERIOD", f"{PERIOD}").replace("REAL", "true" if mode.frequency == 0 else "false")
     return "\n".join(
         [
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" width="{2 * length:.0f}" role="img">',
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" {size} role="img">',
             f"<title>{caption(mode)}</title>",
             *texts,
             *rails,
