@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from yawdesign.design.functions import functions
     from yawdesign.design.optimise import Optimum, optimise
     from yawdesign.design.state_space import StateSpaceModel, state_space
+    from yawdesign.output.animation import animate
     from yawdesign.output.export.write import Export, export
     from yawdesign.output.fmi.archive import Fmu, write_fmu
     from yawdesign.output.plots import plot
@@ -31,8 +32,10 @@ if TYPE_CHECKING:
         table1,
     )
     from yawdesign.response.component import DamperComponent
+    from yawdesign.response.following import FollowedModes, follow_modes
     from yawdesign.response.frequency import FrequencyResponse, frequency_response
     from yawdesign.response.measured import MeasuredTrack, read_spectrum, read_track
+    from yawdesign.response.modes import Modes, modes
     from yawdesign.response.simulate import Simulation, damper_component, simulate
     from yawdesign.response.spectra import SPECTRA, Spectrum
     from yawdesign.response.stationary import StationaryResponse, stationary_response
@@ -56,12 +59,15 @@ _HOMES = {
     "yawdesign.response.stationary": ("StationaryResponse", "stationary_response"),
     "yawdesign.response.synthesis": ("SpectrumCheck", "spectrum_check"),
     "yawdesign.response.track": ("Band", "Harmonic", "RandomTrack", "Sinusoid"),
+    "yawdesign.response.following": ("FollowedModes", "follow_modes"),
+    "yawdesign.response.modes": ("Modes", "modes"),
     "yawdesign.design.forward": ("ForwardDesign", "design"),
     "yawdesign.design.functions": ("functions",),
     "yawdesign.design.optimise": ("Optimum", "optimise"),
     "yawdesign.design.state_space": ("StateSpaceModel", "state_space"),
     "yawdesign.output.export.write": ("Export", "export"),
     "yawdesign.output.fmi.archive": ("Fmu", "write_fmu"),
+    "yawdesign.output.animation": ("animate",),
     "yawdesign.output.plots": ("plot",),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
@@ -76,10 +82,12 @@ __all__ = [
     "Design",
     "Export",
     "Fmu",
+    "FollowedModes",
     "ForwardDesign",
     "FrequencyResponse",
     "Harmonic",
     "MeasuredTrack",
+    "Modes",
     "Optimum",
     "Problem",
     "ProblemError",
@@ -93,13 +101,16 @@ __all__ = [
     "StateSpaceModel",
     "StationaryResponse",
     "Variable",
+    "animate",
     "damper_component",
     "design",
     "export",
+    "follow_modes",
     "frequency_response",
     "functions",
     "load",
     "loads",
+    "modes",
     "optimise",
     "plot",
     "read_spectrum",

@@ -14,6 +14,8 @@ DRAWN_BY: dict[str, tuple[str, str]] = {
     "FrequencyResponse": ("yawdesign.output.response_plots", "frequency_response"),
     "Simulation": ("yawdesign.output.response_plots", "simulation"),
     "SpectrumCheck": ("yawdesign.output.response_plots", "spectrum_check"),
+    "FollowedModes": ("yawdesign.output.mode_plots", "mode_paths"),
+    "Modes": ("yawdesign.output.mode_plots", "mode_shape"),
 }
 
 

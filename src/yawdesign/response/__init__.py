@@ -1,1 +1,1 @@
-"""How the bogie moves on a track: frequency responses, time histories, and what its yaw damper has to do."""
+"""How it moves: modes and what becomes of them, answers to the track, motion in time."""
