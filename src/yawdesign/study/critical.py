@@ -21,7 +21,7 @@ from yawdesign.study.isolation import isolate
 
 Float = NDArray[np.float64]
 
-CONVERGED = 1e-14
+CONVERGED = 1e-10  # relative length of the last step; Newton's method has then squared its error
 ITERATIONS = 100
 
 
@@ -116,8 +116,8 @@ def critical_field(block: Block, *, kind: str, equations: str) -> CriticalField:
 
 def _crossings(A: Float, B: Float, owner: NDArray[np.intp], low: Float, high: Float) -> _Crossings:
     parts = _Parts(*(np.array(half) for p in (A, B) for half in even_odd(tuple(p))))
-    x = _refined(parts.of(owner), low, high)
     mine = parts.of(owner)
+    x = _refined(mine, low, high)
     (ea, oa, eb, ob), (dea, doa, deb, dob) = _values(mine, x)
     C_s = -(ea * eb + x * oa * ob) / (eb * eb + x * ob * ob)
     keep = (C_s > 0) & np.isfinite(C_s)
@@ -134,24 +134,27 @@ def _crossings(A: Float, B: Float, owner: NDArray[np.intp], low: Float, high: Fl
 def _refined(parts: _Parts, low: Float, high: Float) -> Float:
     """Return the root of E_B O_A - E_A O_B in every interval by Newton's method, kept inside by halving."""
     rising = _function(parts, low)[0] < 0
-    x = np.sqrt(low * high)
-    x = np.where(low > 0, x, high / 2)
-    active = np.arange(len(x))
+    root = _middle(low, high)
+    active, x = np.arange(len(root)), root
     for _ in range(ITERATIONS):
-        some = parts.of(active) if len(active) < len(x) else parts
-        value, slope = _function(some, x[active])
-        below = (value < 0) == rising[active]
-        low[active] = np.where(below, x[active], low[active])
-        high[active] = np.where(below, high[active], x[active])
-        new = x[active] - value / slope
-        inside = (new > low[active]) & (new < high[active])
-        new = np.where(inside, new, (low[active] + high[active]) / 2)
-        moving = np.abs(new - x[active]) > CONVERGED * new
-        x[active] = new
-        active = active[moving]
+        value, slope = _function(parts, x)
+        below = (value < 0) == rising
+        low, high = np.where(below, x, low), np.where(below, high, x)
+        new = x - value / slope
+        new = np.where((new > low) & (new < high), new, _middle(low, high))
+        moving = np.abs(new - x) > CONVERGED * new
+        root[active] = x = new
+        if 2 * np.count_nonzero(moving) < len(active):  # to carry the finished along costs less than to part them
+            active, parts = active[moving], parts.of(np.flatnonzero(moving))
+            x, low, high, rising = x[moving], low[moving], high[moving], rising[moving]
         if not len(active):
             break
-    return x
+    return root
+
+
+def _middle(low: Float, high: Float) -> Float:
+    """Return the geometric mean: an interval may reach over many powers of ten."""
+    return np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 2)
 
 
 def _function(parts: _Parts, x: Float) -> tuple[Float, Float]:

@@ -20,8 +20,8 @@ from yawdesign.study.speeds import critical_speeds
 
 Bools = NDArray[np.bool_]
 
-LENGTH = 8192  # points that one thread looks at
-VERDICTS = 65536  # the same for verdicts, which need less memory a point
+LENGTH = 16384  # points that one thread looks at
+VERDICTS = 32768  # the same for verdicts, which need less memory a point
 
 
 def evaluate(question: Question, p: Mapping[str, Any], *, threads: int | None = None) -> Answers:
