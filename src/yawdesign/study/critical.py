@@ -141,7 +141,7 @@ def _refined(parts: _Parts, low: Float, high: Float) -> Float:
         below = (value < 0) == rising
         low, high = np.where(below, x, low), np.where(below, high, x)
         new = x - value / slope
-        new = np.where((new > low) & (new < high), new, _middle(low, high))
+        new = np.where((new >= low) & (new <= high), new, _middle(low, high))
         moving = np.abs(new - x) > CONVERGED * new
         root[active] = x = new
         if 2 * np.count_nonzero(moving) < len(active):  # to carry the finished along costs less than to part them
