@@ -85,6 +85,8 @@ class StateSpace:
         The track inputs u in the order of the contacts: alignment_1 [m], cross_level_1 [rad], alignment_2, ...
     inputs : dict (row, column) -> number
         The entries of B that are not structurally zero.
+    strokes : list of (Link, Maxwell)
+        What each state behind the velocities belongs to: the dashpots, in the order of their states.
     size : int
         Number of states.
     """
@@ -94,6 +96,7 @@ class StateSpace:
         self.coordinates = tuple(masses)
         self.entries: StateEntries = {}
         self.inputs: StateEntries = {}
+        self.strokes: list[tuple[Link, Maxwell]] = []
         contacts = [e for e in elements if isinstance(e, WheelRailContact)]
         self.input_names = tuple(name for e in contacts for name in (e.alignment, e.cross_level))
         self.size = 2 * len(masses)
@@ -142,6 +145,7 @@ class StateSpace:
             return  # no damping, no force, no state
         stroke, rate = self.size, law.K / law.c
         self.size += 1
+        self.strokes.append((link, law))
         self._respond(link, law.K, 0)
         for x, force in link.force.items():
             self._push(x, stroke, times(-law.K, force))

@@ -9,7 +9,14 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # What draws which kind of result, as module and function.
-DRAWN_BY: dict[str, tuple[str, str]] = {}
+DRAWN_BY: dict[str, tuple[str, str]] = {
+    "DamperComponent": ("yawdesign.output.response_plots", "damper_component"),
+    "FrequencyResponse": ("yawdesign.output.response_plots", "frequency_response"),
+    "Simulation": ("yawdesign.output.response_plots", "simulation"),
+    "SpectrumCheck": ("yawdesign.output.response_plots", "spectrum_check"),
+    "FollowedModes": ("yawdesign.output.mode_plots", "mode_paths"),
+    "Modes": ("yawdesign.output.mode_plots", "mode_shape"),
+}
 
 
 def plot(result: Any, ax: "Axes | None" = None, **options: Any) -> "Axes":

@@ -27,4 +27,16 @@ class Parcel:
 
 
 class Unavailable(Exception):  # noqa: N818 - no mistake of the user
-    """A kind of file that cannot be written here, with the reason; the others are written."""
+    """A kind of file that cannot be written here, or not in full, with the reason; the others are written.
+
+    Parameters
+    ----------
+    reason : str
+        Why.
+    files : tuple of str
+        What was written all the same.
+    """
+
+    def __init__(self, reason: str, files: tuple[str, ...] = ()) -> None:
+        super().__init__(reason)
+        self.files = files

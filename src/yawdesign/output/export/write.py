@@ -12,9 +12,12 @@ from yawdesign.output.export.manifest import write_manifest
 from yawdesign.output.export.matlab import write_mat
 from yawdesign.output.export.parcel import Parcel, Unavailable
 from yawdesign.output.export.templates import MAKEFILE
+from yawdesign.output.fmi.archive import write_fmu
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result
+
+FMU = "bogie.fmu"
 
 
 @dataclass(frozen=True, repr=False)
@@ -62,7 +65,23 @@ def write_c(parcel: Parcel, folder: Path) -> list[str]:
     return [write_text(folder / name, text) for name, text in texts.items()]
 
 
-FORMATS: Mapping[str, Callable[[Parcel, Path], list[str]]] = {"casadi": write_casadi, "c": write_c, "mat": write_mat}
+def write_fmu_file(parcel: Parcel, folder: Path) -> list[str]:
+    """Write the linear motion as an FMU, which has all parameters whatever stays an input of the functions."""
+    try:
+        fmu = write_fmu(parcel.problem, folder / FMU)
+    except ProblemError as error:
+        raise Unavailable(f"{FMU} left out: {error}") from None
+    if fmu.platform is None:
+        raise Unavailable(f"{FMU}: {fmu.message}", (FMU,))
+    return [FMU]
+
+
+FORMATS: Mapping[str, Callable[[Parcel, Path], list[str]]] = {
+    "casadi": write_casadi,
+    "c": write_c,
+    "mat": write_mat,
+    "fmu": write_fmu_file,
+}
 
 
 def export(
@@ -83,9 +102,10 @@ def export(
     to : path
         The folder: a new one, or an empty one.
     inputs, only : collection of str, optional
-        Parameters that stay inputs, and names of the functions, as in `yawdesign.functions`.
+        Parameters that stay inputs, and names of the functions, as in `yawdesign.functions`. A kind of file among the
+        names in `only` means nothing but that kind.
     formats : collection of str, optional
-        ``casadi``, ``c``, ``mat``; all if not given.
+        ``casadi``, ``c``, ``mat``, ``fmu``; all if not given.
     force : bool
         Replace the files of an earlier export in a folder that is not empty. Other files are never touched.
 
@@ -101,6 +121,7 @@ def export(
     OSError
         If the folder cannot be written.
     """
+    only, formats = _sorted_out(only, formats)
     wanted = _formats(formats)
     documented = functions(problem, inputs, only).documented
     if not documented:
@@ -110,6 +131,18 @@ def export(
         files, notes = _write(parcel, wanted, folder)
         files.append(write_manifest(parcel, files, notes, folder))
     return Export(str(to), tuple(files), tuple(documented), tuple(notes))
+
+
+def _sorted_out(
+    only: Collection[str] | None, formats: Collection[str] | None
+) -> tuple[Collection[str] | None, Collection[str] | None]:
+    """Return functions and kinds of files that are wanted, with the kinds that are named among the functions."""
+    names = () if only is None else listed(only)
+    kinds = [name for name in names if name in FORMATS]
+    if not kinds:
+        return only, formats
+    functions_left = [name for name in names if name not in FORMATS]
+    return functions_left or None, [*kinds, *(() if formats is None else listed(formats))]
 
 
 def _formats(formats: Collection[str] | None) -> tuple[str, ...]:
@@ -135,6 +168,7 @@ def _write(parcel: Parcel, formats: Collection[str], folder: Path) -> tuple[list
             files += FORMATS[name](parcel, folder)
         except Unavailable as reason:
             notes.append(str(reason))
+            files += reason.files
     if not files:
         raise ProblemError("\n".join(notes) or "no format is named")
     return files, notes
