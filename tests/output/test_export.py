@@ -30,7 +30,7 @@ def problem(name):
     return yd.table1(equations=name)
 
 
-@pytest.fixture(scope="module", params=["as-printed", "reciprocal", "trailer"])
+@pytest.fixture(scope="module", params=["reciprocal", "trailer"])
 def exported(request, tmp_path_factory):
     """Return the folder of a full export and its problem."""
     to = tmp_path_factory.mktemp("export") / request.param

@@ -2,6 +2,8 @@
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import casadi as ca
@@ -202,7 +204,9 @@ def c_source(name: str, exported: Mapping[str, ca.Function]) -> str:
     generator = ca.CodeGenerator(name, {"mex": True})
     for symbol, function in exported.items():
         generator.add(_named(symbol, function))
-    source = str(generator.dump())
+    with TemporaryDirectory() as folder:  # `dump` would leave out the MEX gateway
+        written = Path(generator.generate(folder + "/"))
+        source = written.read_text(encoding="utf-8")
     if "#error" in source:  # CasADi only warns
         raise RuntimeError("CasADi cannot write C code for one of the functions")
     return PREAMBLE + source
