@@ -1,5 +1,6 @@
 """The examples that use exported functions are run, as their first lines say, and their output is checked."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -105,3 +106,22 @@ def test_python_control(tmp_path):
     x = np.linalg.solve(2j * np.pi * f * np.eye(25) - model.A, model.B[:, 0])
     assert abs((model.C @ x)[0]) == pytest.approx(float(out.split()[7]), rel=1e-3)
     assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("page", ["export", "export-casadi", "export-python-control"])
+def test_python_of_the_documents(page, exported, monkeypatch, capsys):
+    text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    assert blocks
+    monkeypatch.chdir(exported.parent)
+    for block in blocks:
+        exec(compile(block, page, "exec"), {})
+    assert capsys.readouterr().out
+
+
+def test_documents_name_every_function_and_file():
+    text = (ROOT / "docs" / "export.md").read_text(encoding="utf-8")
+    for f in yd.functions(yd.table1()).documented.values():
+        assert f"| `{f.function.name()}` |" in text
+    for path in re.findall(r"\]\((?:\.\./)?([\w./-]+)\)", text):
+        assert (ROOT / "docs" / path).exists() or (ROOT / path).exists()

@@ -21,6 +21,7 @@ from yawdesign.output.export import folder, write
 from yawdesign.output.export.parcel import Unavailable
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
+DATA = Path(__file__).parents[1] / "data"
 CHECKED = ["-std=c99", "-O1", "-Wall", "-Werror", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 
 
@@ -119,6 +120,33 @@ def test_header_compiles_in_cpp_and_survives_any_title(tmp_path):
         '#include "out/yawdesign.h"\nint main() { return yawdesign_dynamic_stiffness_in_omega; }'
     )
     subprocess.run(["g++", "-Wall", "-Werror", "-c", "-o", tmp_path / "b.o", tmp_path / "a.cpp"], check=True)
+
+
+MEX_CALL = r"""
+#include "yawdesign.c"
+int main(void) {
+  double values[] = {97.22222222222223, 2.7e5, 22.0};
+  mxArray name = {1, 1, 0, "yawdesign_critical_damping"};
+  mxArray in[] = {{1, 1, values, 0}, {1, 1, values + 1, 0}, {1, 1, values + 2, 0}};
+  const mxArray *argv[] = {&name, in, in + 1, in + 2};
+  mxArray *out[4];
+  mexFunction(4, out, 4, argv);
+  printf("%.17g %.17g %zu\n", out[0]->x[0], out[3]->x[0], out[3]->m);
+  return 0;
+}
+"""
+
+
+def test_mex_gateway(small, tmp_path):
+    # MATLAB is not at hand: its interface is a stub, the gateway is the real one.
+    (tmp_path / "call.c").write_text(MEX_CALL)
+    flags = ["-std=c99", "-O1", "-w", "-DMATLAB_MEX_FILE", f"-I{DATA}", f"-I{small}"]
+    subprocess.run(["cc", *flags, "-o", tmp_path / "call", tmp_path / "call.c", "-lm"], check=True)
+    out = subprocess.run([tmp_path / "call"], capture_output=True, text=True, check=True).stdout.split()
+    assert float(out[0]) == pytest.approx(266059.018759661, rel=1e-9)
+    f = yd.functions(yd.table1(), inputs=("v",))["critical_damping"]
+    assert float(out[1]) == pytest.approx(float(f(350 / 3.6, 2.7e5, 22.0)[3]), rel=1e-11)
+    assert out[2] == "1"
 
 
 def test_makefile_and_example(small, tmp_path):
