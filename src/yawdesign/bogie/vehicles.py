@@ -9,7 +9,7 @@ Parameters = Mapping[str, Number]
 
 YAW_DAMPER = "yaw damper"
 LATERAL_DAMPER = "lateral damper "
-MOTOR_SUSPENSION = "motor suspension "
+MOTOR_DAMPER = "motor damper "
 
 
 def bogie(p: Parameters, *, kind: str = "power", equations: str = "reciprocal") -> list[Element]:
@@ -58,7 +58,7 @@ def _motors(p: Parameters, equations: str) -> Pair:
     motor = (
         Mass("y_m", p["M_m"]),
         Mass("phi_m", p["J_m"]),
-        Link(lateral, {"y_b": 1, "y_m": -1}, lever={"phi_b": p["a_0"]}, name=MOTOR_SUSPENSION),
+        Link(lateral, {"y_b": 1, "y_m": -1}, lever={"phi_b": p["a_0"]}, name=MOTOR_DAMPER),
         Link((Spring(p["K_mphi"]), Dashpot(p["C_mphi"])), {"phi_b": 1, "phi_m": -1}, acts_on=acts_on),
     )
     return Pair(motor, own=frozenset({"y_m", "phi_m"}))

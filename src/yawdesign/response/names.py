@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from yawdesign.bogie.vehicles import LATERAL_DAMPER, MOTOR_SUSPENSION, YAW_DAMPER
+from yawdesign.bogie.vehicles import LATERAL_DAMPER, MOTOR_DAMPER, YAW_DAMPER
 from yawdesign.response.spectrum import Index, Motion, Spectrum
 from yawdesign.stability.modes import Complex, Float
 
@@ -19,7 +19,7 @@ GROUPS = {
     "phi_m": "motor yaw",
     YAW_DAMPER: "yaw damper relaxation",
     LATERAL_DAMPER: "lateral damper relaxation",
-    MOTOR_SUSPENSION: "motor damper relaxation",
+    MOTOR_DAMPER: "motor damper relaxation",
 }
 WITHOUT_OSCILLATION = {"wheelset hunting": "wheelset creep"}
 LEAST = 1e-3  # a smaller share is as good as none
