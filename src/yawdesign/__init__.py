@@ -27,6 +27,8 @@ if TYPE_CHECKING:
         table1,
     )
     from yawdesign.stability.verdict import Stability, stability
+    from yawdesign.study.result import Sweep
+    from yawdesign.study.sweep import IncompleteSweepError, sweep
 
 __version__ = "0.1.0"
 
@@ -38,6 +40,8 @@ _HOMES = {
     "yawdesign.stability.verdict": ("Stability", "stability"),
     "yawdesign.design.forward": ("ForwardDesign", "design"),
     "yawdesign.design.optimise": ("Optimum", "optimise"),
+    "yawdesign.study.result": ("Sweep",),
+    "yawdesign.study.sweep": ("IncompleteSweepError", "sweep"),
     "yawdesign.output.plots": ("plot",),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
@@ -48,11 +52,13 @@ __all__ = [
     "Curve",
     "Design",
     "ForwardDesign",
+    "IncompleteSweepError",
     "Optimum",
     "Problem",
     "ProblemError",
     "SpeedRange",
     "Stability",
+    "Sweep",
     "Variable",
     "design",
     "load",
@@ -61,6 +67,7 @@ __all__ = [
     "plot",
     "schema",
     "stability",
+    "sweep",
     "table1",
 ]
 

@@ -115,6 +115,38 @@ def optimise(
 app.command("optimize", hidden=True)(optimise)
 
 
+@app.command()
+def sweep(
+    file: ProblemFile,
+    over: Annotated[
+        list[str], typer.Option(metavar="NAME=LOW:HIGH:N[:log]", help="An axis; one to three.", show_default=False)
+    ],
+    of: Annotated[
+        str,
+        typer.Option(help="stable, decay_rate, damping_ratio, margin, critical, C_sl, design or critical_speed."),
+    ] = "C_sl",
+    hold: Annotated[str | None, typer.Option(help="C_m (default) or xi_m: what stays when f_m changes.")] = None,
+    csv: Annotated[str | None, typer.Option(help="Write a table.")] = None,
+    npz: Annotated[str | None, typer.Option(help="Write arrays for NumPy.")] = None,
+    plot: Annotated[str | None, typer.Option(help="Draw a picture: .png, .pdf or .svg.")] = None,
+    jobs: Annotated[int, typer.Option(min=1, help="Number of processes.")] = 1,
+    dask: Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")] = None,
+    resume: Annotated[str | None, typer.Option(help="File that keeps unfinished work, and goes on from it.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Answer one question at every point of a grid of parameters: curves, maps, stability charts."""
+    with _mistakes_shown():
+        problem = _read(file)
+        from yawdesign.output.study_command import Outputs, run
+
+        outputs = Outputs(csv=csv, npz=npz, plot=plot)
+        with _progress() as progress:
+            result, code = run(problem, of, over, outputs, hold, jobs, dask, resume, progress, _tell)
+        if result is not None:
+            _show(result, as_json, "sweep_tables")
+    raise typer.Exit(code)
+
+
 @contextmanager
 def _progress() -> Iterator[Any]:
     """Show what is going on on standard error, if a person is looking."""
