@@ -140,13 +140,13 @@ def _phase(c: Characteristic, omega: Float) -> Float:
 
 def _candidates(c: Characteristic) -> list[float]:
     """Return the frequencies of the positive, or nearly real, roots of E_B O_A - E_A O_B in w^2."""
-    (even_a, odd_a), (even_b, odd_b) = (_parts(scale_variable(p, TIME_UNIT)) for p in (c.A, c.B))
+    (even_a, odd_a), (even_b, odd_b) = (even_odd(scale_variable(p, TIME_UNIT)) for p in (c.A, c.B))
     x = roots(trim(add(multiply(even_b, odd_a), scale(multiply(even_a, odd_b), -1))))
     near = x[(x.real > 0) & (np.abs(x.imag) < 0.1 * x.real)]
     return [float(w) for w in np.sqrt(near.real) * TIME_UNIT]
 
 
-def _parts(p: Polynomial) -> tuple[Polynomial, Polynomial]:
+def even_odd(p: Polynomial) -> tuple[Polynomial, Polynomial]:
     """Return the even part E(x) and the odd part O(x) of p(j w) = E(x) + j w O(x), x = w^2."""
     even, odd = p[::2], p[1::2]
     return tuple(a * (-1) ** k for k, a in enumerate(even)), tuple(a * (-1) ** k for k, a in enumerate(odd))

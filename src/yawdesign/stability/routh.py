@@ -36,13 +36,13 @@ def _divide(x: Number, y: Number) -> Number:
         return math.nan
 
 
-def _chain(upper: list[Number], lower: list[Number]) -> list[Number]:
-    """Return the leading coefficients of the Sturm chain that begins with two polynomials (highest power first)."""
-    column = [upper[0]]
+def _rows(upper: list[Number], lower: list[Number]) -> list[list[Number]]:
+    """Return the Sturm chain that begins with two polynomials (highest power first)."""
+    rows = [upper]
     while lower:
-        column.append(lower[0])
+        rows.append(lower)
         upper, lower = lower, _remainder(upper, lower)
-    return column
+    return rows
 
 
 def routh_column(p: Polynomial) -> list[Number]:
@@ -63,12 +63,21 @@ def routh_column(p: Polynomial) -> list[Number]:
     >>> routh_column((6.0, 11.0, 6.0, 1.0))
     [1.0, 6.0, 10.0, 6.0]
     """
+    return [row[0] for row in routh_rows(p)]
+
+
+def routh_rows(p: Polynomial) -> list[list[Number]]:
+    """Return Routh's array of a real polynomial, lowest power first, with its zeros.
+
+    Each entry of a row stands above the entries it is multiplied with: the first one of row k + 2 is a multiple of the
+    third one of row k + 1, minus the third one of row k.
+    """
     down = p[::-1]
     # p(j w) / j^n = U(w) - j V(w); only every second coefficient of U and of V is there.
     signed = [times((1, 1, -1, -1)[k % 4], a) for k, a in enumerate(down)]
     upper = [a if k % 2 == 0 else 0 for k, a in enumerate(signed)]
     lower = [a if k % 2 == 1 else 0 for k, a in enumerate(signed)][1:]
-    return _chain(upper, lower)
+    return _rows(upper, lower)
 
 
 def sector_column(p: Polynomial, zeta: Number) -> list[Number]:
@@ -88,7 +97,7 @@ def sector_column(p: Polynomial, zeta: Number) -> list[Number]:
     angle = np.arcsin(zeta) + np.pi / 2
     upper = [times(np.cos(k * angle), a) for k, a in enumerate(p[::-1])]
     lower = [times(np.sin(k * angle), a) for k, a in enumerate(p[::-1])]
-    return _chain(upper, lower[1:])
+    return [row[0] for row in _rows(upper, lower[1:])]
 
 
 def is_stable(column: Sequence[Number]) -> NDArray[np.bool_]:
