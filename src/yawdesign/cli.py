@@ -1,7 +1,9 @@
 """The command line: parses, calls, prints and sets the exit code."""
 
 import json
+import os
 import sys
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
@@ -137,14 +139,49 @@ def sweep(
     """Answer one question at every point of a grid of parameters: curves, maps, stability charts."""
     with _mistakes_shown():
         problem = _read(file)
-        from yawdesign.output.study_command import Outputs, run
+        from yawdesign.output.study_files import Outputs
+        from yawdesign.study.chunks import workers
+        from yawdesign.study.sweep import IncompleteSweepError, swept
 
-        outputs = Outputs(csv=csv, npz=npz, plot=plot)
-        with _progress() as progress:
-            result, code = run(problem, of, over, outputs, hold, jobs, dask, resume, progress, _tell)
-        if result is not None:
-            _show(result, as_json, "sweep_tables")
-    raise typer.Exit(code)
+        outputs = Outputs.checked(file, over, csv=csv, npz=npz, plot=plot, resume=resume)
+        axes = [(name, values) for name, _, values in (text.partition("=") for text in over)]
+        try:
+            with _progress() as progress, workers(jobs, dask) as executor, _warnings_told():
+                work = {"executor": executor, "resume": resume, "progress": progress}
+                result = swept(problem, of, axes, hold=hold, **work)
+        except IncompleteSweepError as error:
+            _tell(outputs.rescued(error.result, error.reason))
+            raise typer.Exit(INTERRUPTED if error.interrupted else SOLVER_FAILED) from None
+        try:
+            outputs.write(result)
+            _show_sweep(result, as_json)
+        except OSError as error:
+            _tell(outputs.rescued(result, f"{error.filename or 'the answer'} could not be written: {error.strerror}"))
+            raise typer.Exit(BAD_INPUT) from None
+    raise typer.Exit(_code(not result.unverified.any(), bool(result.good.any())))
+
+
+def _show_sweep(result: Any, as_json: bool) -> None:
+    from yawdesign.output import study_tables, tables
+
+    try:
+        if as_json:
+            typer.echo(json.dumps(result.to_dict(), allow_nan=False))
+        else:
+            tables.show(study_tables.sweep_tables(result))
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what cannot be written is not tried again at the end
+        raise
+
+
+@contextmanager
+def _warnings_told() -> Iterator[None]:
+    """Show warnings as messages."""
+    with warnings.catch_warnings():
+        warnings.showwarning = lambda message, *_: _tell(f"warning: {message}")
+        warnings.simplefilter("always", RuntimeWarning)
+        yield
 
 
 @contextmanager

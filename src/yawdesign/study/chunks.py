@@ -1,7 +1,8 @@
 """Many points in chunks, in this process or by an executor; what is finished stays when something breaks."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
+from contextlib import contextmanager
 from itertools import islice
 from multiprocessing import get_context
 from signal import SIG_IGN, SIGINT, signal
@@ -17,6 +18,7 @@ from yawdesign.study.store import Store
 LARGEST, SMALLEST = 16_384, 64  # points of a chunk
 PARTS = 64  # into which a grid is cut for an executor, so that all workers end at about the same time
 IN_FLIGHT = 256  # chunks that are handed over at a time
+CONNECT = 20  # seconds to wait for a dask scheduler
 
 Blocks = Iterable[tuple[int, int]]
 
@@ -130,6 +132,32 @@ def as_executor(executor: Any) -> Executor:
     return executor  # type: ignore[no-any-return]
 
 
-def processes(jobs: int) -> ProcessPoolExecutor:
-    """Return an executor of some processes, which leave Ctrl-C to this one."""
-    return ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=signal, initargs=(SIGINT, SIG_IGN))
+@contextmanager
+def workers(jobs: int = 1, dask: str | None = None) -> Iterator[Any]:
+    """Give an executor for a number of processes or the address of a dask scheduler; None for this process alone."""
+    if dask is not None and jobs > 1:
+        raise ProblemError("--jobs and --dask: choose one, the scheduler has its own workers")
+    if dask is not None:
+        with _client(dask) as client:
+            yield client
+    elif jobs > 1:
+        with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_leave_interrupts) as executor:
+            yield executor
+    else:
+        yield None
+
+
+def _leave_interrupts() -> None:
+    """Leave Ctrl-C to the first process, which keeps what the others have finished."""
+    signal(SIGINT, SIG_IGN)
+
+
+def _client(address: str) -> Any:
+    try:
+        from distributed import Client
+    except ImportError:
+        raise ProblemError("dask is not installed: pip install 'yawdesign[dask]'") from None
+    try:
+        return Client(address, timeout=CONNECT)  # type: ignore[no-untyped-call]
+    except (OSError, ValueError) as error:
+        raise ProblemError(f"--dask: no scheduler answers at {address}: {error}") from None

@@ -27,16 +27,19 @@ class IncompleteSweepError(RuntimeError):
 
     Parameters
     ----------
-    message : str
+    reason : str
         What happened.
+    remedy : str
+        What to do.
     result : Sweep
         With NaN where there is no answer yet.
     interrupted : bool
         Whether it was stopped from the keyboard.
     """
 
-    def __init__(self, message: str, result: Sweep, interrupted: bool) -> None:
-        super().__init__(message)
+    def __init__(self, reason: str, remedy: str, result: Sweep, interrupted: bool) -> None:
+        super().__init__(f"{reason}. {remedy}")
+        self.reason = reason
         self.result = result
         self.interrupted = interrupted
 
@@ -127,7 +130,8 @@ def swept(
     failed = fill(store, asked, executor, chunk, done)
     if failed is not None:
         result = gathered(asked, store, time.perf_counter() - begin)
-        raise IncompleteSweepError(_what_now(store, failed, kept), result, isinstance(failed, KeyboardInterrupt)) from failed
+        stopped = isinstance(failed, KeyboardInterrupt)
+        raise IncompleteSweepError(_reason(store, failed), _remedy(kept), result, stopped) from failed
     if kept:
         kept.save()
     boundary = _boundary(asked, executor)
@@ -170,13 +174,16 @@ class _Kept:
         return not self.trouble
 
 
-def _what_now(store: Store, failed: BaseException, kept: _Kept | None) -> str:
+def _reason(store: Store, failed: BaseException) -> str:
     happened = "it was stopped" if isinstance(failed, KeyboardInterrupt) else f"{type(failed).__name__}: {failed}"
-    text = f"{store.finished.sum()} of {store.size} points are finished, then {happened.rstrip('.')}. "
+    return f"{store.finished.sum()} of {store.size} points are finished, then {happened.rstrip('.')}"
+
+
+def _remedy(kept: _Kept | None) -> str:
     if kept and kept.save():
-        return text + f"What is finished is in {kept.path}: the same sweep with resume={str(kept.path)!r} does the rest"
+        return f"What is finished is in {kept.path}: the same sweep with resume={str(kept.path)!r} does the rest"
     name = str(kept.path) if kept else "FILE.npz"
-    return text + f"Nothing finished is lost: .result has it, .result.keep({name!r}) writes it, resume={name!r} goes on"
+    return f"Nothing finished is lost: .result has it, .result.keep({name!r}) writes it, resume={name!r} goes on"
 
 
 def _boundary(asked: Request, executor: Any) -> Sweep | None:
