@@ -9,7 +9,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # What draws which kind of result, as module and function.
-DRAWN_BY: dict[str, tuple[str, str]] = {}
+DRAWN_BY: dict[str, tuple[str, str]] = {
+    "Sweep": ("yawdesign.output.study_plots", "draw"),
+    "ForwardDesign": ("yawdesign.output.design_plots", "draw_design"),
+    "Optimum": ("yawdesign.output.design_plots", "draw_optimum"),
+}
 
 
 def plot(result: Any, ax: "Axes | None" = None, **options: Any) -> "Axes":
