@@ -56,13 +56,34 @@ def partners(left: Column, right: Column) -> list[tuple[int, int]]:
     return [pair for pair in pairs if np.isfinite(distance[pair])]
 
 
-def curves(x: Float, columns: list[Column]) -> dict[str, list[Points]]:
-    """Return the pieces of the curves, by what the bogie becomes above them."""
+def curves(x: Float, columns: list[Column], bottom: float, top: float) -> dict[str, list[Points]]:
+    """Return the pieces of the curves, by what the bogie becomes above them.
+
+    Between two places a curve may turn back, or leave through the bottom or the top: its end is drawn half way.
+    """
     out: dict[str, list[Points]] = {kind: [] for kind in KINDS}
     for (x_1, left), (x_2, right) in pairwise(zip(x, columns, strict=True)):
-        for k, j in partners(left, right):
+        pairs = partners(left, right)
+        for k, j in pairs:
             out[left.kinds[k]].append([(x_1, left.values[k]), (x_2, right.values[j])])
+        middle = (x_1 + x_2) / 2
+        for place, column, taken in ((x_1, left, {k for k, _ in pairs}), (x_2, right, {j for _, j in pairs})):
+            for kind, end in _ends(column, [k for k in range(column.values.size) if k not in taken], bottom, top):
+                out[kind].append([(place, end[0]), (middle, end[1])])
     return out
+
+
+def _ends(column: Column, loose: list[int], bottom: float, top: float) -> Iterator[tuple[str, tuple[float, float]]]:
+    """Yield the kind of the values that nothing continues, with where they go: to their neighbour or out of sight."""
+    kinds = column.kinds
+    folded = {k for k in loose if k + 1 in loose and kinds[k] != kinds[k + 1]}
+    for k in loose:
+        value = float(column.values[k])
+        if k in folded or k - 1 in folded:
+            other = float(column.values[k + 1 if k in folded else k - 1])
+            yield kinds[k], (value, float(np.sqrt(value * other)))
+        elif k == 0:
+            yield kinds[k], (value, bottom)
 
 
 def stable_areas(x: Float, columns: list[Column], bottom: float, top: float) -> Iterator[Points]:

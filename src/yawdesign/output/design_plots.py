@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from yawdesign.output.plots import new_axes
-from yawdesign.output.study_plots import COLOURS, STABLE, UNSTABLE
+from yawdesign.output.study_plots import COLOURS, STABLE, UNSTABLE, legend_below
 from yawdesign.output.tables import margin
 from yawdesign.problem import PARAMETERS, ProblemError, format_quantity, to_unit
 
@@ -30,9 +30,10 @@ def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
     """
     ax = new_axes(ax)
     low, high = _ends(result)
-    ax.axvspan(low, high, color=UNSTABLE, linewidth=0, label="unstable")
+    many = len({x.speed for x in result.critical}) > 1
+    ax.axvspan(low, high, color=UNSTABLE, linewidth=0, label="unstable at some speed" if many else "unstable")
     for k, (start, stop) in enumerate(result.stable_intervals):
-        text = "_" if k else "stable at every speed"
+        text = "_" if k else "stable at every speed" if many else "stable"
         ax.axvspan(max(start * DAMPING, low), min(stop * DAMPING, high), color=STABLE, linewidth=0, label=text)
     _critical(result, ax)
     if result.C_su is not None and result.C_su > 0:
@@ -43,7 +44,7 @@ def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
         ax.axvline(result.C_s * DAMPING, color="#1f4e9e", linewidth=2.5, label=text)
     ax.set(xscale="log", xlim=(low, high), xlabel=r"damping of the pair of yaw dampers $C_\mathrm{s}$ [kN·s/m]")
     ax.set_title(f"Forward design: {result.status}", loc="left", fontsize="medium")
-    ax.legend(loc="best", fontsize="small", framealpha=0.95)
+    legend_below(ax)
     return ax
 
 
@@ -94,7 +95,7 @@ def draw_optimum(result: "Optimum", ax: "Axes | None" = None) -> "Axes":
     ax.set(xlim=(-3, 103), ylim=(len(names) - 0.4, -0.6), xlabel="place between the bounds, on a logarithmic scale [%]")
     before, after = margin(result.margin_before, result.objective), margin(result.margin, result.objective)
     ax.set_title(f"Least {result.objective.replace('_', ' ')}: {before} → {after}", loc="left", fontsize="medium")
-    ax.legend(loc="lower left", bbox_to_anchor=(0, -0.32), ncols=2, fontsize="small", frameon=False)
+    legend_below(ax)
     return ax
 
 

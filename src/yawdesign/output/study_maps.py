@@ -9,7 +9,7 @@ from yawdesign.output.branches import curves
 from yawdesign.output.study_plots import (
     COLOURS,
     LABELS,
-    MEANING,
+    ON_MAP,
     STABLE,
     UNKNOWN,
     UNSTABLE,
@@ -18,6 +18,7 @@ from yawdesign.output.study_plots import (
     axis_values,
     columns_of,
     draw_lines,
+    legend_below,
     scale_axis,
     title,
 )
@@ -44,7 +45,7 @@ def draw_map(sweep: Sweep, ax: "Axes") -> "Axes":
     scale_axis(ax.set_yscale, upright)
     ax.set_title(title(sweep), loc="left", fontsize="medium")
     if handles:
-        ax.legend(handles=handles, loc="best", fontsize="small", framealpha=0.9)
+        legend_below(ax, handles=handles)
     return ax
 
 
@@ -79,7 +80,8 @@ def _values(sweep: Sweep, ax: "Axes", x: Float, y: Float, turned: bool) -> list[
     mesh = ax.pcolormesh(
         x, y, _upright(shown, turned), shading="nearest", rasterized=True, zorder=1, **_colours(sweep, shown)
     )
-    extend = "min" if sweep.quantity in ("decay_rate", "damping_ratio") and shown.min() < mesh.norm.vmin else "neither"
+    below = sweep.quantity in ("decay_rate", "damping_ratio") and shown.count() and shown.min() < mesh.get_clim()[0]
+    extend = "min" if below else "neither"
     ax.figure.colorbar(mesh, ax=ax, label=f"{text} [{shown_unit(sweep)}]", extend=extend)
     return handles
 
@@ -146,9 +148,10 @@ def _boundary(sweep: Sweep, ax: "Axes", across: str, x: Float, y: Float, turned:
 
     if sweep.boundary is not None:
         (axis,) = sweep.boundary.axes
-        lines = curves(axis_values(axis), columns_of(sweep.boundary, to_unit(1.0, "kN·s/m")))
+        ends = (x if across == "C_s" else y)[[0, -1]]
+        lines = curves(axis_values(axis), columns_of(sweep.boundary, to_unit(1.0, "kN·s/m")), *ends)
         draw_lines(ax, lines, swap=across == "C_s")
-        return [Line2D([], [], color=COLOURS[kind], label=MEANING[kind]) for kind, found in lines.items() if found]
+        return [Line2D([], [], color=COLOURS[kind], label=ON_MAP[kind]) for kind, found in lines.items() if found]
     inside = sweep.main if sweep.quantity in ("decay_rate", "damping_ratio") else sweep.good.astype(float) - 0.5
     if min(inside.shape) < 2 or not (np.nanmin(inside) < 0 < np.nanmax(inside)):
         return []

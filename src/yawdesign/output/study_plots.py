@@ -1,6 +1,8 @@
 """Pictures of sweeps: a curve over one axis, a map over two."""
 
 import textwrap
+from collections.abc import Iterator
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,6 +27,7 @@ MEANING = {
     "unstable": "becomes unstable above",
     "neither": "unstable on both sides",
 }
+ON_MAP = {kind: rf"critical $C_\mathrm{{s}}$, {text}" for kind, text in MEANING.items()}
 LABELS = {
     "decay_rate": "least decay rate",
     "damping_ratio": "least damping ratio",
@@ -100,11 +103,21 @@ def axis_label(axis: Axis) -> str:
     return textwrap.fill(f"{row.meaning} ${row.symbol}${unit}", 70)
 
 
+def is_geometric(axis: Axis) -> bool:
+    """Return whether the values of an axis have equal ratios."""
+    x = axis.values
+    return bool(x.size > 2 and x[0] > 0 and np.allclose(np.diff(np.log(x)), np.log(x[1] / x[0]), rtol=1e-3))
+
+
 def scale_axis(set_scale: Any, axis: Axis) -> None:
     """Choose a logarithmic scale for an axis whose values have equal ratios."""
-    x = axis.values
-    if x.size > 2 and x[0] > 0 and np.allclose(np.diff(np.log(x)), np.log(x[1] / x[0]), rtol=1e-3):
+    if is_geometric(axis):
         set_scale("log")
+
+
+def legend_below(ax: "Axes", **options: Any) -> None:
+    """Explain a picture that leaves no room inside."""
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, fontsize="small", frameon=False, **options)
 
 
 def columns_of(sweep: Sweep, factor: float) -> list[Column]:
@@ -135,7 +148,7 @@ def _branches(sweep: Sweep, ax: "Axes", x: Float, *, legend: bool = True) -> Non
     low, high = _limits(sweep, ax)
     areas = list(stable_areas(x, columns, low, high))
     ax.add_collection(PolyCollection(areas, facecolors=STABLE, edgecolors=STABLE, linewidths=0.3, zorder=0))
-    draw_lines(ax, curves(x, columns))
+    draw_lines(ax, curves(x, columns, low, high))
     handles, _ = ax.get_legend_handles_labels()
     if areas:
         handles.append(Patch(color=STABLE, label="stable"))
@@ -200,18 +213,29 @@ def _design(sweep: Sweep, ax: "Axes", x: Float) -> None:
 
 def _margin(sweep: Sweep, ax: "Axes", x: Float) -> None:
     """Draw a margin, or only the verdict, and shade where it is stable."""
-    over = ax.get_xaxis_transform()
-    for mask, colour, text in ((sweep.good, STABLE, "stable"), (~sweep.good & sweep.known, UNSTABLE, "unstable")):
-        if mask.any():
-            ax.fill_between(x, 0, 1, where=_spread(mask), transform=over, color=colour, label=text, linewidth=0)
+    y = sweep.main.astype(float) - (0.5 if sweep.quantity == "stable" else 0.0)
+    known = set()
+    for start, stop, stable in _stretches(x, y, is_geometric(sweep.axes[0])):
+        label = "_" if stable in known else "stable" if stable else "unstable"
+        known.add(stable)
+        ax.axvspan(start, stop, color=STABLE if stable else UNSTABLE, linewidth=0, label=label)
     if sweep.quantity == "stable":
         ax.set_yticks([])
     else:
-        ax.plot(x, sweep.main * to_unit(1.0, shown_unit(sweep)), color="black", linewidth=1.8)
+        ax.plot(x, y * to_unit(1.0, shown_unit(sweep)), color="black", linewidth=1.8)
         ax.axhline(0, color="black", linewidth=0.8)
     ax.legend(loc="best", fontsize="small")
 
 
-def _spread(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return the mask with the places right behind it, for areas are drawn between places."""
-    return mask | np.concatenate([[False], mask[:-1]])
+def _stretches(x: Float, y: Float, geometric: bool) -> Iterator[tuple[float, float, bool]]:
+    """Yield the stretches on which the drawn curve is above zero, and those on which it is not."""
+    u = np.log(x) if geometric else x
+    for start, stop, y_1, y_2 in zip(u, u[1:], y, y[1:], strict=False):
+        if np.isnan(y_1 + y_2):
+            continue
+        ends = [start, stop]
+        if (y_1 > 0) != (y_2 > 0):
+            ends.insert(1, start + (stop - start) * y_1 / (y_1 - y_2))
+        signs = [bool(y_1 > 0), bool(y_2 > 0)] if len(ends) == 3 else [bool(y_1 > 0)]
+        for (a, b), sign in zip(pairwise(np.exp(ends) if geometric else ends), signs, strict=True):
+            yield float(a), float(b), sign
