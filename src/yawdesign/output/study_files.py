@@ -11,6 +11,7 @@ from yawdesign.output.plots import plot
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.study.result import Sweep
+from yawdesign.study.writing import whole_file
 
 PICTURES = (".png", ".pdf", ".svg")
 DOTS_PER_INCH = 150
@@ -95,16 +96,5 @@ def write_picture(sweep: Sweep, path: Path) -> None:
     if figure is None:
         raise ProblemError("the picture has no figure")
     figure.savefig(content, format=path.suffix[1:].lower(), dpi=DOTS_PER_INCH)
-    write_bytes(path, content.getvalue())
-
-
-def write_bytes(path: Path, content: bytes) -> None:
-    """Write a file beside its place and rename it, so that no half of it is ever there."""
-    beside = path.with_name(path.name + ".part")
-    try:
-        beside.write_bytes(content)
-        beside.replace(path)
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, str(path)) from None
-    finally:
-        beside.unlink(missing_ok=True)
+    with whole_file(path) as file:
+        file.write(content.getvalue())

@@ -1,6 +1,7 @@
 """A sweep as a table, as arrays and as a labelled data set."""
 
 import csv
+import io
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,7 +14,8 @@ from yawdesign.problem.result import plain
 from yawdesign.study.axes import ROWS, block
 from yawdesign.study.question import Array
 from yawdesign.study.result import UNITS, Sweep
-from yawdesign.study.store import MASKS, write_arrays
+from yawdesign.study.store import MASKS
+from yawdesign.study.writing import whole_file
 
 if TYPE_CHECKING:
     import xarray
@@ -30,24 +32,19 @@ def write_npz(sweep: Sweep, path: Path) -> None:
     """Write a sweep as arrays."""
     axes = {f"axis_{axis.name}": axis.values for axis in sweep.axes}
     units = {axis.name: axis.unit for axis in sweep.axes} | {name: UNITS[name] for name in sweep.columns}
-    texts = {"of": sweep.of, "axes": [axis.name for axis in sweep.axes], "units": json.dumps(units)}
+    texts: dict[str, Any] = {"of": sweep.of, "axes": [axis.name for axis in sweep.axes], "units": json.dumps(units)}
     masks = {name: getattr(sweep, name) for name in MASKS}
     texts["provenance"] = origin(sweep)
-    write_arrays(path, {"values": sweep.main, **sweep.columns, **axes, **masks, **texts})
+    arrays = {"values": sweep.main, **sweep.columns, **axes, **masks, **texts}
+    with whole_file(path) as file:
+        np.savez_compressed(file, **arrays)
 
 
 def write_csv(sweep: Sweep, path: Path) -> None:
-    """Write a sweep as a table, beside its place and then renamed."""
-    beside = path.with_name(path.name + ".part")
-    try:
-        with beside.open("w", encoding="utf-8", newline="") as file:
-            file.write(f"# sweep of {sweep.of}\n# {origin(sweep)}\n")
-            csv.writer(file).writerows(_rows(sweep))
-        beside.replace(path)
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, str(path)) from error
-    finally:
-        beside.unlink(missing_ok=True)
+    """Write a sweep as a table."""
+    with whole_file(path) as file, io.TextIOWrapper(file, encoding="utf-8", newline="") as text:
+        text.write(f"# sweep of {sweep.of}\n# {origin(sweep)}\n")
+        csv.writer(text).writerows(_rows(sweep))
 
 
 def _rows(sweep: Sweep) -> Iterator[list[Any]]:

@@ -15,6 +15,7 @@ from yawdesign.problem import ProblemError
 from yawdesign.problem.result import plain
 from yawdesign.study.question import Answers, Array
 from yawdesign.study.request import Request
+from yawdesign.study.writing import whole_file
 
 MASKS = ("finished", "recomputed", "unverified")
 
@@ -101,20 +102,9 @@ def save(path: Path, asked: Request, store: Store) -> None:
     """Write what is finished into a file that `restore` reads."""
     masks = {name: getattr(store, name) for name in MASKS}
     columns = {f"column_{name}": column for name, column in store.columns.items()}
-    write_arrays(path, {**masks, **columns, "identity": np.array(json.dumps(identity(asked)))})
-
-
-def write_arrays(path: Path, arrays: dict[str, Any]) -> None:
-    """Write an npz file beside its place and rename it, so that a full disk or a crash leaves the old one whole."""
-    beside = path.with_name(path.name + ".part")
-    try:
-        with beside.open("wb") as file:
-            np.savez_compressed(file, **arrays)
-        beside.replace(path)
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, str(path)) from error
-    finally:
-        beside.unlink(missing_ok=True)
+    arrays: dict[str, Any] = {**masks, **columns, "identity": np.array(json.dumps(identity(asked)))}
+    with whole_file(path) as file:
+        np.savez_compressed(file, **arrays)
 
 
 def restore(path: Path, asked: Request) -> Store:
