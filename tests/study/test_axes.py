@@ -39,7 +39,13 @@ def test_a_range_has_its_ends_and_its_number(low, ratio, n, log):
 
 def test_values_in_any_container():
     expected = [1e5, 1e6]
-    for values in ([1e5, 1e6], (100_000, 1_000_000), np.array(expected), ["100 kN s/m", "1 MN s/m"], ["100 kN s/m", 1e6]):
+    for values in (
+        [1e5, 1e6],
+        (100_000, 1_000_000),
+        np.array(expected),
+        ["100 kN s/m", "1 MN s/m"],
+        ["100 kN s/m", 1e6],
+    ):
         assert read_axis("C_s", values).values.tolist() == expected
     assert read_axis("lambda", [0.1, 0.2]).unit == "-"
     assert [read_axis(name, [1, 2]).unit for name in ("v", "f_m", "K_m")] == ["m/s", "Hz", "N/m"]

@@ -4,6 +4,7 @@ import errno
 import os
 import signal
 from concurrent.futures import Future, ThreadPoolExecutor
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -143,7 +144,10 @@ class Failing(ThreadPoolExecutor):
         return failed
 
 
-@pytest.mark.parametrize("error", [KilledWorker("task", None, 3), MemoryError("no room"), ValueError("odd")])
+@pytest.mark.parametrize(
+    "error",
+    [KilledWorker("task", SimpleNamespace(address="tcp://there"), 3), MemoryError("no room"), ValueError("odd")],
+)
 def test_a_chunk_that_fails_does_not_take_the_others_with_it(error, expected):
     with Failing(error, 5) as executor, pytest.raises(yd.IncompleteSweepError, match=type(error).__name__) as caught:
         yd.sweep(PRINTED, executor=executor, chunk=1, **GRID)

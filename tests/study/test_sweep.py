@@ -21,7 +21,7 @@ def chart():
 
 @pytest.fixture(scope="module")
 def critical():
-    return yd.sweep(PRINTED, of="critical", f_m=[2.0, 3.4], v=[250 / 3.6, 300 / 3.6, 350 / 3.6])
+    return yd.sweep(PRINTED, of="critical", f_m=[2.0, 3.27], v=[250 / 3.6, 300 / 3.6, 350 / 3.6])
 
 
 def test_one_dimension_for_each_axis_in_the_order_given(chart):
@@ -46,11 +46,11 @@ def test_the_chart_has_its_critical_lines(chart):
 
 def test_all_critical_values(critical):
     assert critical.values.shape == (2, 3)
-    assert [round(x / 1e3) for x in critical.values[1, 1]] == [160, 297, 658]
+    assert [len(x) for x in critical.values[:, 1]] == [1, 3]
     assert critical.columns["count"].tolist() == [[len(x) for x in row] for row in critical.values]
     roots = critical.columns["unstable_roots"][1, 1]
-    assert roots[~np.isnan(roots)].tolist() == [0, 2, 2, 0][: roots.size] or np.nanmin(roots) == 0
-    single = yd.design(PRINTED.replace(K_m=PRINTED.bogie.M_m * (2 * np.pi * 3.4) ** 2))
+    assert roots[~np.isnan(roots)].tolist() == [2, 0, 2, 0]
+    single = yd.design(PRINTED.replace(K_m=PRINTED.bogie.M_m * (2 * np.pi * 3.27) ** 2))
     assert critical.values[1, 1] == pytest.approx([x.C_s for x in single.critical], rel=1e-9)
     assert critical.columns["omega"][1, 1] == pytest.approx([x.omega for x in single.critical], rel=1e-9)
 
@@ -116,7 +116,7 @@ def test_plain_data(critical, chart):
     assert data["of"] == "critical"
     assert [axis["name"] for axis in data["axes"]] == ["f_m", "v"]
     assert [axis["unit"] for axis in data["axes"]] == ["Hz", "m/s"]
-    assert data["axes"][0]["values"] == [2.0, 3.4]
+    assert data["axes"][0]["values"] == [2.0, 3.27]
     assert data["values"][1][1] == pytest.approx(critical.values[1, 1])
     assert data["columns"]["omega"][1][1] == pytest.approx(critical.columns["omega"][1, 1])
     assert data["columns"]["checked"] == [[True] * 3] * 2
@@ -136,7 +136,7 @@ def test_csv(critical, tmp_path):
     assert len(rows) == 6
     assert list(rows[0])[:3] == ["f_m [Hz]", "v [m/s]", "critical_1 [N s/m]"]
     row = rows[4]
-    assert [float(row[key]) for key in ("f_m [Hz]", "v [m/s]")] == pytest.approx([3.4, 300 / 3.6])
+    assert [float(row[key]) for key in ("f_m [Hz]", "v [m/s]")] == pytest.approx([3.27, 300 / 3.6])
     assert [float(row[f"critical_{k} [N s/m]"]) for k in (1, 2, 3)] == pytest.approx(critical.values[1, 1], rel=1e-14)
     assert (row["count"], row["checked"]) == ("3", "1")
 
@@ -162,7 +162,7 @@ def test_xarray_through_netcdf(name, request, tmp_path):
 
 def test_xarray_is_labelled(critical):
     data = critical.to_xarray()
-    found = data["critical"].sel(f_m=3.4).sel(v=300 / 3.6, method="nearest")
+    found = data["critical"].sel(f_m=3.27).sel(v=300 / 3.6, method="nearest")
     assert found.dims == ("branch",)
     assert found.values[:3] == pytest.approx(critical.values[1, 1])
     assert data["critical"].attrs["units"] == "N·s/m"

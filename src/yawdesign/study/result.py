@@ -136,7 +136,7 @@ class Sweep(Result):
         masks = {n: np.take(getattr(self, n), nearest, axis=k) for n in ("finished", "recomputed", "unverified")}
         columns = {n: np.take(x, nearest, axis=k) for n, x in self.columns.items()}
         axes = (*self.axes[:k], *self.axes[k + 1 :])
-        at = {**self.provenance.get("at", {}), name: float(self.axes[k].values[nearest])}
+        at = {**self.provenance.get("at", {}), self.axes[k].name: float(self.axes[k].values[nearest])}
         return replace(
             self, axes=axes, columns=columns, **masks, boundary=None, provenance={**self.provenance, "at": at}
         )

@@ -119,10 +119,10 @@ def restore(path: Path, asked: Request) -> Store:
     if not path.exists():
         return store
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
         found = json.loads(str(arrays["identity"]))
-    except (ValueError, KeyError, EOFError, zipfile.BadZipFile):
+    except (ValueError, KeyError, EOFError, AttributeError, TypeError, zipfile.BadZipFile):
         text = f"{path} is no unfinished sweep: give another name, or remove it to begin anew"
         raise ProblemError(text) from None
     _compare(path, found, identity(asked))

@@ -97,9 +97,9 @@ def sweep(
     Examples
     --------
     >>> import yawdesign as yd
-    >>> result = yd.sweep(yd.table1(equations="as-printed"), of="critical", f_m=[2.0, 3.4])
+    >>> result = yd.sweep(yd.table1(equations="as-printed"), of="critical", f_m=[2.0, 3.27])
     >>> [[round(x / 1000) for x in values] for values in result.values]
-    [[281], [160, 297, 658]]
+    [[281], [29, 209, 358]]
     """
     return swept(problem, of, axes.items(), hold=hold, executor=executor, resume=resume, progress=progress, chunk=chunk)
 
