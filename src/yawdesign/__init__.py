@@ -10,7 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from yawdesign.design.forward import ForwardDesign, design
+    from yawdesign.design.functions import functions
     from yawdesign.design.optimise import Optimum, optimise
+    from yawdesign.design.state_space import StateSpaceModel, state_space
+    from yawdesign.output.animation import animate
+    from yawdesign.output.export.write import Export, export
+    from yawdesign.output.fmi.archive import Fmu, write_fmu
     from yawdesign.output.plots import plot
     from yawdesign.problem import (
         PARAMETERS,
@@ -26,6 +31,16 @@ if TYPE_CHECKING:
         schema,
         table1,
     )
+    from yawdesign.response.component import DamperComponent
+    from yawdesign.response.following import FollowedModes, follow_modes
+    from yawdesign.response.frequency import FrequencyResponse, frequency_response
+    from yawdesign.response.measured import MeasuredTrack, read_spectrum, read_track
+    from yawdesign.response.modes import Modes, modes
+    from yawdesign.response.simulate import Simulation, damper_component, simulate
+    from yawdesign.response.spectra import SPECTRA, Spectrum
+    from yawdesign.response.stationary import StationaryResponse, stationary_response
+    from yawdesign.response.synthesis import SpectrumCheck, spectrum_check
+    from yawdesign.response.track import Band, Harmonic, RandomTrack, Sinusoid
     from yawdesign.stability.verdict import Stability, stability
     from yawdesign.study.result import Sweep
     from yawdesign.study.sweep import IncompleteSweepError, sweep
@@ -38,37 +53,83 @@ _HOMES = {
         *("load", "loads", "schema", "table1"),
     ),
     "yawdesign.stability.verdict": ("Stability", "stability"),
+    "yawdesign.response.component": ("DamperComponent",),
+    "yawdesign.response.frequency": ("FrequencyResponse", "frequency_response"),
+    "yawdesign.response.measured": ("MeasuredTrack", "read_spectrum", "read_track"),
+    "yawdesign.response.simulate": ("Simulation", "damper_component", "simulate"),
+    "yawdesign.response.spectra": ("SPECTRA", "Spectrum"),
+    "yawdesign.response.stationary": ("StationaryResponse", "stationary_response"),
+    "yawdesign.response.synthesis": ("SpectrumCheck", "spectrum_check"),
+    "yawdesign.response.track": ("Band", "Harmonic", "RandomTrack", "Sinusoid"),
+    "yawdesign.response.following": ("FollowedModes", "follow_modes"),
+    "yawdesign.response.modes": ("Modes", "modes"),
     "yawdesign.design.forward": ("ForwardDesign", "design"),
+    "yawdesign.design.functions": ("functions",),
     "yawdesign.design.optimise": ("Optimum", "optimise"),
     "yawdesign.study.result": ("Sweep",),
     "yawdesign.study.sweep": ("IncompleteSweepError", "sweep"),
+    "yawdesign.design.state_space": ("StateSpaceModel", "state_space"),
+    "yawdesign.output.export.write": ("Export", "export"),
+    "yawdesign.output.fmi.archive": ("Fmu", "write_fmu"),
+    "yawdesign.output.animation": ("animate",),
     "yawdesign.output.plots": ("plot",),
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
     "PARAMETERS",
+    "SPECTRA",
+    "Band",
     "Bogie",
     "Curve",
+    "DamperComponent",
     "Design",
+    "Export",
+    "Fmu",
+    "FollowedModes",
     "ForwardDesign",
+    "FrequencyResponse",
+    "Harmonic",
     "IncompleteSweepError",
+    "MeasuredTrack",
+    "Modes",
     "Optimum",
     "Problem",
     "ProblemError",
+    "RandomTrack",
+    "Simulation",
+    "Sinusoid",
+    "Spectrum",
+    "SpectrumCheck",
     "SpeedRange",
     "Stability",
+    "StateSpaceModel",
+    "StationaryResponse",
     "Sweep",
     "Variable",
+    "animate",
+    "damper_component",
     "design",
+    "export",
+    "follow_modes",
+    "frequency_response",
+    "functions",
     "load",
     "loads",
+    "modes",
     "optimise",
     "plot",
+    "read_spectrum",
+    "read_track",
     "schema",
+    "simulate",
+    "spectrum_check",
     "stability",
+    "state_space",
+    "stationary_response",
     "sweep",
     "table1",
+    "write_fmu",
 ]
 
 

@@ -60,13 +60,13 @@ def _read(path: str) -> "Problem":
     return problem
 
 
-def _show(result: Any, as_json: bool, tables: str) -> None:
-    from yawdesign.output import tables as output
+def _show(result: Any, as_json: bool, tables: str, home: str = "yawdesign.output.tables") -> None:
+    from yawdesign.output.tables import show
 
     if as_json:
         typer.echo(json.dumps(result.to_dict(), indent=2, allow_nan=False))
     else:
-        output.show(getattr(output, tables)(result))
+        show(getattr(import_module(home), tables)(result))
 
 
 def _code(checked: bool, feasible: bool) -> int:
@@ -184,6 +184,142 @@ def _warnings_told() -> Iterator[None]:
         yield
 
 
+@app.command()
+def simulate(
+    file: ProblemFile,
+    as_json: AsJson = False,
+    track: Annotated[
+        str,
+        typer.Option(
+            help="german-low, german-high, fra-1 ... fra-6, german:A_a=..,A_v=.., fra:A=.., harmonic, sinusoid, "
+            "smooth, or a file with a measured track or a spectrum."
+        ),
+    ] = "german-low",
+    speed: Annotated[
+        list[str] | None, typer.Option(help="Such as '300 km/h', in place of the problem's; may be repeated.")
+    ] = None,
+    duration: Annotated[str | None, typer.Option(help="Of each run; 60 s, or the whole measured track.")] = None,
+    length: Annotated[str | None, typer.Option(help="Of each run, instead of a duration, such as '2000 m'.")] = None,
+    step: Annotated[str | None, typer.Option(help="Largest time step; 1 ms, or finer where needed.")] = None,
+    start: Annotated[str, typer.Option(help="stationary, rest or offset.")] = "stationary",
+    offset: Annotated[str | None, typer.Option(help="Lateral displacement for --start offset; 10 mm.")] = None,
+    band: Annotated[
+        tuple[str, str] | None, typer.Option(help="Of a spectrum; '0.3 Hz' '40 Hz', or in 1/m along the track.")
+    ] = None,
+    wavelength: Annotated[str | None, typer.Option(help="Of --track harmonic; 20 m.")] = None,
+    amplitude: Annotated[str | None, typer.Option(help="Of --track harmonic, 5 mm, or sinusoid, 1 m.")] = None,
+    seed: Annotated[int | None, typer.Option(min=0, help="Of a spectrum's random phases; 0.")] = None,
+    csv: Annotated[str | None, typer.Option(help="Write the time histories as text.")] = None,
+    npz: Annotated[str | None, typer.Option(help="Write the time histories as NumPy arrays.")] = None,
+    plot: Annotated[str | None, typer.Option(help="Draw the frame's motion to a .png, .pdf or .svg file.")] = None,
+    response: Annotated[str, typer.Option(help="What --plot draws.")] = "y_b",
+) -> None:
+    """Run the bogie over a track: RMS, peaks, whether amplitudes settle, and what its yaw damper has to do."""
+    from yawdesign.output import histories
+
+    with _mistakes_shown():
+        files = [(csv, (".csv",)), (npz, (".npz",)), (plot, histories.PICTURES)]
+        to_csv, to_npz, to_plot = (path and histories.checked_ending(path, endings) for path, endings in files)
+        problem = _read(file)
+        with _progress() as progress:
+            from yawdesign.response.simulate import simulate as run
+            from yawdesign.response.tracks import shaped
+
+            result = run(
+                problem,
+                shaped(track, wavelength=wavelength, amplitude=amplitude),
+                speed=speed or None,
+                duration=duration,
+                length=length,
+                step=step,
+                start=start,
+                offset=offset,
+                band=band,
+                seed=seed,
+                progress=progress,
+            )
+        if to_plot:
+            from yawdesign.output.response_plots import simulation
+
+            histories.write_picture(lambda: simulation(result, response=response), to_plot)
+        if to_csv:
+            histories.write_csv(result, to_csv)
+        if to_npz:
+            histories.write_npz(result, to_npz)
+        _show(result, as_json, "simulation_tables", "yawdesign.output.response_tables")
+    raise typer.Exit(_code(result.checked, result.settles))
+
+
+@app.command()
+def modes(
+    file: ProblemFile,
+    over: Annotated[
+        str, typer.Option(metavar="NAME=LOW:HIGH:N[:log]", help="Follow the modes, such as 'v=50 km/h:450 km/h:80'.")
+    ] = "",
+    plot: Annotated[str, typer.Option(metavar="FILE", help="Draw the mode, or with --over the paths.")] = "",
+    of: Annotated[str, typer.Option(help="With --over: root_locus, damping_ratio or frequency.")] = "root_locus",
+    animate: Annotated[str, typer.Option(metavar="MODE", help="Which mode is drawn; the slowest if not given.")] = "",
+    to: Annotated[str, typer.Option(metavar="FILE", help="Show the mode in motion: a .gif or .svg file.")] = "",
+    as_json: AsJson = False,
+) -> None:
+    """Show all modes by name: frequency, damping, what takes part; follow them over speed or any parameter."""
+    with _mistakes_shown():
+        from yawdesign.problem import ProblemError
+
+        problem = _read(file)
+        if over and (to or animate):
+            raise ProblemError("--animate and --to show a mode at one place: leave out --over")
+        if over:
+            result: Any = import_module("yawdesign.response.following").follow_modes(problem, **_axis(over))
+        else:
+            result = import_module("yawdesign.response.modes").modes(problem)
+        if plot:
+            _draw(result, plot, {"of": of} if over else {"mode": animate or None})
+        if to:
+            import_module("yawdesign.output.animation").animate(result, to, mode=animate or None)
+        _show(result, as_json, "followed_tables" if over else "modes_tables", "yawdesign.output.mode_tables")
+    raise typer.Exit(_code(result.checked, bool(over) or result.stable))
+
+
+def _axis(text: str) -> dict[str, Any]:
+    """Return a parameter with its values, from NAME=LOW:HIGH:N, or NAME=LOW:HIGH:N:log for geometric steps."""
+    import numpy as np
+
+    from yawdesign.problem import PARAMETERS, ProblemError
+    from yawdesign.problem.diagnostics import unknown_key
+    from yawdesign.problem.running import SPEED
+    from yawdesign.problem.table import as_count, check_ends
+
+    name, _, rest = text.partition("=")
+    ends, rows = rest.removesuffix(":log").split(":"), {"v": SPEED, **PARAMETERS}
+    if len(ends) != 3:
+        raise ProblemError(f"--over {text}: expected NAME=LOW:HIGH:N or NAME=LOW:HIGH:N:log")
+    if name not in rows:
+        raise ProblemError(f"--over {text}: {name} {unknown_key(name, rows)}")
+    low, high = map(float, check_ends(ends[0], ends[1], rows[name]))
+    if rest.endswith(":log") and low <= 0:
+        raise ProblemError(f"--over {text}: geometric steps start above 0")
+    space = np.geomspace if rest.endswith(":log") else np.linspace
+    return {name: space(low, high, as_count(int(ends[2]) if ends[2].isdigit() else ends[2], 2, 100_000))}
+
+
+def _draw(result: Any, file: str, options: dict[str, Any]) -> None:
+    """Draw a result into a file, beside its place at first, so that no half of it is ever there."""
+    from yawdesign.output.plots import plot
+    from yawdesign.problem import ProblemError
+
+    path = Path(file)
+    if path.suffix.lower() not in (".pdf", ".png", ".svg"):
+        raise ProblemError(f"{file}: a picture is written as .pdf, .png or .svg")
+    beside = path.with_name(path.name + ".part")
+    try:
+        figure: Any = plot(result, **options).figure
+        figure.savefig(beside, dpi=150, format=path.suffix[1:].lower())
+        beside.replace(path)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
 @contextmanager
 def _progress() -> Iterator[Any]:
     """Show what is going on on standard error, if a person is looking."""
@@ -198,6 +334,31 @@ def _progress() -> Iterator[Any]:
     with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("starting", total=1.0)
         yield lambda text, part: bar.update(task, description=text, completed=part)
+
+
+@app.command()
+def export(
+    file: ProblemFile,
+    to: Annotated[str, typer.Option(metavar="DIR", help="Folder to write; new or empty.", show_default=False)],
+    inputs: Annotated[
+        str | None, typer.Option(metavar="C_s,K_m,v", help="Parameters that stay inputs; all, if not given.")
+    ] = None,
+    only: Annotated[
+        str | None, typer.Option(metavar="NAMES", help="Functions, or kinds of files, to write; all.")
+    ] = None,
+    formats: Annotated[str | None, typer.Option(metavar="NAMES", help="Kinds of files to write; all.")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace the files of an earlier export.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Write the model as functions for C, MATLAB and CasADi, with a manifest of their inputs and outputs."""
+    with _mistakes_shown():
+        problem = _read(file)
+        from yawdesign.output.export.write import export as write
+
+        result = write(problem, to, inputs=inputs, only=only, formats=formats, force=force)
+        for note in result.notes:
+            _tell(f"note: {note}")
+        _show(result, as_json, "export_tables")
 
 
 @app.command()

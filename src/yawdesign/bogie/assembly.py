@@ -1,4 +1,4 @@
-"""Assembly of elements: to a polynomial matrix in s, and to a state matrix.
+"""Assembly of elements: to a polynomial matrix in s, and to a state matrix with its track inputs.
 
 The polynomial matrix keeps one extra row for the force of every link, ``denominator(s) force = numerator(s) u``. So a
 link's polynomials enter every determinant at most once, and terms that would cancel never arise.
@@ -65,7 +65,7 @@ def polynomial_matrix(elements: Iterable[Single]) -> Entries:
 
 
 class StateSpace:
-    """State matrix of a list of elements.
+    """State matrix A and input matrix B of a list of elements: x' = A x + B u.
 
     The states are the coordinates, their velocities, and the dashpot stroke z of every Maxwell element, for which
     z' = K/c (u - z) and the force is K (u - z).
@@ -80,7 +80,13 @@ class StateSpace:
     coordinates : tuple of str
         In the order of their masses.
     entries : dict (row, column) -> number
-        The entries that are not structurally zero.
+        The entries of A that are not structurally zero.
+    input_names : tuple of str
+        The track inputs u in the order of the contacts: alignment_1 [m], cross_level_1 [rad], alignment_2, ...
+    inputs : dict (row, column) -> number
+        The entries of B that are not structurally zero.
+    strokes : list of (Link, Maxwell)
+        What each state behind the velocities belongs to: the dashpots, in the order of their states.
     size : int
         Number of states.
     """
@@ -89,6 +95,10 @@ class StateSpace:
         masses = {e.coordinate: e.m for e in elements if isinstance(e, Mass)}
         self.coordinates = tuple(masses)
         self.entries: StateEntries = {}
+        self.inputs: StateEntries = {}
+        self.strokes: list[tuple[Link, Maxwell]] = []
+        contacts = [e for e in elements if isinstance(e, WheelRailContact)]
+        self.input_names = tuple(name for e in contacts for name in (e.alignment, e.cross_level))
         self.size = 2 * len(masses)
         self._place = {x: i for i, x in enumerate(self.coordinates)}
         self._masses = masses
@@ -111,6 +121,9 @@ class StateSpace:
         for (row, x), p in contact.entries().items():
             for order, value in enumerate(p):
                 self._push(row, order * len(self._masses) + self._place[x], value)
+        for (row, name), force in contact.inputs().items():
+            place = len(self._masses) + self._place[row], self.input_names.index(name)
+            self.inputs[place] = force / self._masses[row]
 
     def _add_link(self, link: Link) -> None:
         for law in link.laws:
@@ -132,6 +145,7 @@ class StateSpace:
             return  # no damping, no force, no state
         stroke, rate = self.size, law.K / law.c
         self.size += 1
+        self.strokes.append((link, law))
         self._respond(link, law.K, 0)
         for x, force in link.force.items():
             self._push(x, stroke, times(-law.K, force))

@@ -139,7 +139,9 @@ class WheelRailContact:
     """Linear creep and gravitational stiffness of one wheelset (eq. (2)).
 
     In the equations of y and phi stand ``W lambda/b y + 2 f_11 (y'/v - phi)`` and
-    ``-W b lambda phi + 2 f_22 (b lambda/r y + b^2 phi'/v)``.
+    ``-W b lambda phi + 2 f_22 (b lambda/r y + b^2 phi'/v)``. The rail comes in where the wheelset's displacement on it
+    matters: ``y - y_a`` stands in the gravitational stiffness and in the conicity term, and a cross-level angle theta
+    pushes with ``W theta``. The creep of y' knows no rail velocity.
 
     Parameters
     ----------
@@ -153,6 +155,9 @@ class WheelRailContact:
         Lateral and longitudinal creep coefficient of one wheel [N].
     v : number
         Speed [m/s].
+    alignment, cross_level : str, optional
+        Inputs of the track under the wheelset: lateral position of the track's centre line y_a [m] and cross-level
+        angle theta [rad].
     """
 
     y: str
@@ -164,6 +169,8 @@ class WheelRailContact:
     f_11: Number
     f_22: Number
     v: Number
+    alignment: str = "alignment"
+    cross_level: str = "cross_level"
 
     def entries(self) -> dict[tuple[str, str], Polynomial]:
         """Return the polynomial entries (row, column) of the contact."""
@@ -173,6 +180,15 @@ class WheelRailContact:
             (self.y, self.phi): (-2 * self.f_11,),
             (self.phi, self.y): (2 * self.f_22 * self.b * self.conicity / self.r,),
             (self.phi, self.phi): (-gravity * self.b, 2 * self.f_22 * self.b * self.b / self.v),
+        }
+
+    def inputs(self) -> dict[tuple[str, str], Number]:
+        """Return the force [N], or moment [N m], in the equation of a coordinate per unit of a track input."""
+        entries = self.entries()
+        return {
+            (self.y, self.alignment): entries[self.y, self.y][0],
+            (self.y, self.cross_level): self.W,
+            (self.phi, self.alignment): entries[self.phi, self.y][0],
         }
 
 
@@ -189,7 +205,7 @@ class Pair:
         The front end's elements. In the rear ones the `Link.lever` has the opposite sign.
     own : set of str
         Coordinates that each end has for itself: ``y_w`` becomes ``y_w1`` and ``y_w2``, or, folded, half the sum
-        ``y_w+`` and half the difference ``y_w-``.
+        ``y_w+`` and half the difference ``y_w-``. So do the track inputs: ``alignment_1``, ``alignment_2``.
     """
 
     elements: tuple[Single, ...]
@@ -225,7 +241,8 @@ class Pair:
             case Mass():
                 return replace(element, coordinate=new(element.coordinate))
             case WheelRailContact():
-                return replace(element, y=new(element.y), phi=new(element.phi))
+                track = {x: f"{getattr(element, x)}_{suffix}" for x in ("alignment", "cross_level")}
+                return replace(element, y=new(element.y), phi=new(element.phi), **track)
         renamed = replace(
             element,
             gap={new(x): g for x, g in element.gap.items()},

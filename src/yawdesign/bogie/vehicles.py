@@ -7,7 +7,9 @@ from yawdesign.bogie.polynomials import Number
 
 Parameters = Mapping[str, Number]
 
-YAW_DAMPER = "yaw damper"
+YAW_DAMPER = "yaw damper"  # the pair of them
+LATERAL_DAMPER = "lateral damper "
+MOTOR_DAMPER = "motor damper "
 
 
 def bogie(p: Parameters, *, kind: str = "power", equations: str = "reciprocal") -> list[Element]:
@@ -36,7 +38,8 @@ def _frame(p: Parameters) -> list[Element]:
         Link((Spring(p["K_1y"]),), {"y_b": 1, "y_w": -1}, lever={"phi_b": p["a"]}),
         Link((Spring(p["K_1x"] * arm_1),), {"phi_b": 1, "phi_w": -1}),
     )
-    lateral_damper = Link((Maxwell(p["K_dt"] / 2, p["C_t"] / 2),), {"y_b": 1}, lever={"phi_b": p["b_0"]})
+    lateral_law = Maxwell(p["K_dt"] / 2, p["C_t"] / 2)
+    lateral_damper = Link((lateral_law,), {"y_b": 1}, lever={"phi_b": p["b_0"]}, name=LATERAL_DAMPER)
     return [
         Mass("y_b", p["M_b"]),
         Mass("phi_b", p["J_b"]),
@@ -51,10 +54,11 @@ def _frame(p: Parameters) -> list[Element]:
 def _motors(p: Parameters, equations: str) -> Pair:
     # Misprint 1: the row of phi_b in (1) and (7) lacks what the motors' yaw suspension does to the frame.
     acts_on = frozenset({"phi_m"}) if equations == "as-printed" else None
+    lateral = (Spring(p["K_m"]), Maxwell(p["K_dm"] / 2, p["C_m"]))
     motor = (
         Mass("y_m", p["M_m"]),
         Mass("phi_m", p["J_m"]),
-        Link((Spring(p["K_m"]), Maxwell(p["K_dm"] / 2, p["C_m"])), {"y_b": 1, "y_m": -1}, lever={"phi_b": p["a_0"]}),
+        Link(lateral, {"y_b": 1, "y_m": -1}, lever={"phi_b": p["a_0"]}, name=MOTOR_DAMPER),
         Link((Spring(p["K_mphi"]), Dashpot(p["C_mphi"])), {"phi_b": 1, "phi_m": -1}, acts_on=acts_on),
     )
     return Pair(motor, own=frozenset({"y_m", "phi_m"}))

@@ -13,6 +13,12 @@ DRAWN_BY: dict[str, tuple[str, str]] = {
     "Sweep": ("yawdesign.output.study_plots", "draw"),
     "ForwardDesign": ("yawdesign.output.design_plots", "draw_design"),
     "Optimum": ("yawdesign.output.design_plots", "draw_optimum"),
+    "DamperComponent": ("yawdesign.output.response_plots", "damper_component"),
+    "FrequencyResponse": ("yawdesign.output.response_plots", "frequency_response"),
+    "Simulation": ("yawdesign.output.response_plots", "simulation"),
+    "SpectrumCheck": ("yawdesign.output.response_plots", "spectrum_check"),
+    "FollowedModes": ("yawdesign.output.mode_plots", "mode_paths"),
+    "Modes": ("yawdesign.output.mode_plots", "mode_shape"),
 }
 
 

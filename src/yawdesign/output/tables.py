@@ -12,6 +12,7 @@ from yawdesign.problem import PARAMETERS, format_quantity
 if TYPE_CHECKING:
     from yawdesign.design.forward import ForwardDesign
     from yawdesign.design.optimise import Optimum
+    from yawdesign.output.export.write import Export
     from yawdesign.stability.verdict import Mode, Stability
 
 DAMPING = "kN·s/m"
@@ -165,6 +166,12 @@ def _fixed(result: "Optimum") -> Table:
             if s.imag >= 0:
                 table.add_row(name, f"{-s.real:.4f}", f"{s.imag / 6.283185307179586:.3f}")
     return table
+
+
+def export_tables(result: "Export") -> RenderableType:
+    """Return the table of an `Export`."""
+    rows = [("functions", ", ".join(result.functions)), ("files", ", ".join(result.files))]
+    return _facts(f"Written to {result.folder}", [*rows, ("what they take and give", "manifest.json")])
 
 
 def show(table: RenderableType) -> None:

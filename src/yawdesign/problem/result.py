@@ -30,7 +30,7 @@ def plain(value: Any) -> Any:
         entries = value.tolist() if hasattr(value, "tolist") else value
         return [plain(entry) for entry in entries] if isinstance(entries, (list, tuple)) else plain(entries)
     if isinstance(value, complex):
-        return [value.real, value.imag]
+        return [plain(value.real), plain(value.imag)]
     if isinstance(value, float):
         return float(value) if math.isfinite(value) else None
     return value

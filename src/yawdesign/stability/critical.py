@@ -96,7 +96,7 @@ def critical_damping(p: Parameters, *, kind: str = "power", equations: str = "re
     found = sorted(polish(p, crossings(c), kind=kind, equations=equations))
     places = _places([C_s for C_s, _ in found], p["K_ds"])
     routh = [count_unstable(c.core(C_s)) for C_s in places]
-    modes = [count_undamped(core_eigenvalues(p, C_s, kind=kind, equations=equations)) for C_s in places]
+    modes = [int(count_undamped(core_eigenvalues(p, C_s, kind=kind, equations=equations))) for C_s in places]
     values = tuple(
         CriticalValue(C_s, omega, _becomes(before, after), _residual(c, C_s, omega))
         for (C_s, omega), before, after in zip(found, routh, routh[1:], strict=False)

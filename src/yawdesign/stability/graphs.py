@@ -77,12 +77,26 @@ def _on_axis(p: Polynomial, omega: ca.SX) -> tuple[ca.SX, ca.SX]:
 
 
 @lru_cache
-def rootfinder(names: Names, kind: str = "power", equations: str = "reciprocal") -> ca.Function:
-    """Return the rootfinder of `boundary`: (z0, p) -> z."""
+def boundary_slope(names: Names, kind: str = "power", equations: str = "reciprocal") -> ca.Function:
+    """Return d ln C_s / d p along the boundary by the implicit function theorem: (z, p) -> slope.
+
+    One reverse sweep with l from J' l = (1, 0), where J = d g / d z. By Cramer's rule, so that a singular J gives
+    numbers that are not finite; a linear solver would end the evaluation.
+    """
+    z, p = ca.SX.sym("z", 2), ca.SX.sym("p", len(names))
+    g = boundary(names, kind, equations)(z, p)
+    J = ca.jacobian(g, z)
+    weights = ca.vertcat(J[1, 1], -J[0, 1]) / (J[0, 0] * J[1, 1] - J[0, 1] * J[1, 0])
+    return ca.Function("boundary_slope", [z, p], [-ca.jtimes(g, p, weights, True)], ["z", "p"], ["slope"])
+
+
+@lru_cache
+def rootfinder(names: Names, kind: str = "power", equations: str = "reciprocal", method: str = "newton") -> ca.Function:
+    """Return the rootfinder of `boundary`: (z0, p) -> z. Of CasADi's methods only fast_newton becomes C code."""
     g = boundary(names, kind, equations)
     z, p = ca.SX.sym("z", 2), ca.SX.sym("p", len(names))
     problem = {"x": z, "p": p, "g": g(z, p)}
-    return ca.rootfinder("critical", "newton", problem, {"abstol": 1e-14, "max_iter": 50, "error_on_fail": False})
+    return ca.rootfinder("critical", method, problem, {"abstol": 1e-14, "max_iter": 50, "error_on_fail": False})
 
 
 @lru_cache
@@ -99,7 +113,7 @@ def critical_damping(names: Names, kind: str = "power", equations: str = "recipr
     p, start, omega = ca.MX.sym("p", len(names)), ca.MX.sym("C_s"), ca.MX.sym("omega")
     z = rootfinder(names, kind, equations)(ca.vertcat(ca.log(start), omega / TIME_UNIT), p)
     C_s = ca.exp(z[0])
-    residual = ca.norm_inf(boundary(names, kind, equations)(z, p))
+    residual = ca.norm_2(boundary(names, kind, equations)(z, p))  # norm_inf of NaN is 0
     hessian, gradient = ca.hessian(C_s, p)
     outputs = [C_s, z[1] * TIME_UNIT, residual, gradient, hessian]
     labels = ["C_s_critical", "omega_critical", "residual", "gradient", "hessian"]

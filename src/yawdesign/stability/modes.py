@@ -108,6 +108,6 @@ def _relative(p: Polynomial, s: Complex) -> Float:
     return np.asarray(np.abs(evaluate(p, s)) / evaluate(tuple(np.abs(a) for a in p), size))
 
 
-def count_undamped(s: Complex) -> int:
-    """Return the number of roots that are not in the left half-plane, those within rounding of its edge included."""
-    return int(np.sum(s.real > -1e-10 * np.maximum(1, np.abs(s))))
+def count_undamped(s: Complex) -> NDArray[np.int64]:
+    """Return the number of roots over the last axis that are not in the left half-plane, or within rounding of it."""
+    return np.asarray(np.sum(s.real > -1e-10 * np.maximum(1, np.abs(s)), axis=-1))

@@ -7,6 +7,7 @@ bogies at once), CasADi SX and rationals. A zero leading entry makes what follow
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,7 +81,7 @@ def routh_rows(p: Polynomial) -> list[list[Number]]:
     return _rows(upper, lower)
 
 
-def sector_column(p: Polynomial, zeta: Number) -> list[Number]:
+def sector_column(p: Polynomial, zeta: Number, functions: Any = np) -> list[Number]:
     """Return a chain that is positive exactly if every root of p has a damping ratio above zeta.
 
     The polynomial is turned by asin(zeta), which brings the sector's edge onto the imaginary axis; since roots come in
@@ -92,11 +93,13 @@ def sector_column(p: Polynomial, zeta: Number) -> list[Number]:
         Real coefficients, lowest power first, the last one positive.
     zeta : float or array
         Damping ratio, 0 <= zeta < 1 (a sector wider than the half-plane has no edge of this kind).
+    functions : module
+        Where `arcsin`, `cos` and `sin` of zeta are: `numpy`, or `casadi` for SX.
     """
     # Coefficient of z^(n-k) in p(z e^(j asin zeta)), divided by the turn of z^n and by j^k.
-    angle = np.arcsin(zeta) + np.pi / 2
-    upper = [times(np.cos(k * angle), a) for k, a in enumerate(p[::-1])]
-    lower = [times(np.sin(k * angle), a) for k, a in enumerate(p[::-1])]
+    angle = functions.arcsin(zeta) + math.pi / 2
+    upper = [times(functions.cos(k * angle), a) for k, a in enumerate(p[::-1])]
+    lower = [times(functions.sin(k * angle), a) for k, a in enumerate(p[::-1])]
     return [row[0] for row in _rows(upper, lower[1:])]
 
 

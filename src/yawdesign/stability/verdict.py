@@ -140,7 +140,7 @@ def stability_at(p: Parameters, C_s: float, variables: Collection[str] = (), *, 
             *(roots(c.factors[n]) for n in c.factors if n not in fixed),
         ]
     )
-    unstable = count_undamped(s)
+    unstable = int(count_undamped(s))
     whole = c.full(C_s)
     counted = _count(c, C_s)
     agree = counted == unstable and bool(np.all(backward_error(whole, s) < EXACT))

@@ -6,22 +6,22 @@ point passes if every root's residual is small, no count is doubtful, and every 
 what the crossing root's velocity says. What fails is recomputed the thorough way.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign.stability.critical import TIGHT, even_odd
+from yawdesign.stability.critical import TIGHT, CriticalDamping, even_odd
 from yawdesign.stability.routh import TIME_UNIT
 from yawdesign.study import kernels
+from yawdesign.study.block import Block
 from yawdesign.study.isolation import isolate
 
 Float = NDArray[np.float64]
-Values = Mapping[str, Any]
 
-CONVERGED = 1e-14
+CONVERGED = 1e-10  # relative length of the last step; Newton's method has then squared its error
 ITERATIONS = 100
 
 
@@ -43,6 +43,26 @@ class CriticalField:
     omega: Float
     unstable_roots: Float
     passed: NDArray[np.bool_]
+
+    def with_rows(self, rows: Mapping[int, CriticalDamping]) -> "CriticalField":
+        """Return the field with the critical values of some points replaced."""
+        least = max(self.critical.shape[1], *(len(sets.critical) for sets in rows.values()))
+        critical, omega = (_widened(x, least) for x in (self.critical, self.omega))
+        unstable = _widened(self.unstable_roots, least + 1)
+        for k, sets in rows.items():
+            _fill(critical[k], [x.C_s for x in sets.critical])
+            _fill(omega[k], [x.omega for x in sets.critical])
+            _fill(unstable[k], sets.unstable_roots)
+        return CriticalField(critical, omega, unstable, self.passed)
+
+
+def _widened(rows: Float, width: int) -> Float:
+    return np.pad(rows, ((0, 0), (0, width - rows.shape[1])), constant_values=np.nan)
+
+
+def _fill(row: Float, values: Sequence[float]) -> None:
+    row[:] = np.nan
+    row[: len(values)] = values
 
 
 class _Parts(NamedTuple):
@@ -67,26 +87,26 @@ class _Crossings(NamedTuple):
     residual: Float
 
 
-def critical_field(p: Values, *, kind: str, equations: str) -> CriticalField:
+def critical_field(block: Block, *, kind: str, equations: str) -> CriticalField:
     """Return the critical values at many points, without recomputing those that fail a check.
 
     Parameters
     ----------
-    p : mapping
-        Symbols of Table I in SI units and ``v``: numbers, or arrays of one common length; at least one array.
+    block : Block
+        The points, with ``v``.
     kind, equations : str
         As in `yawdesign.bogie.vehicles.bogie`.
     """
-    zeros = frozenset(name for name, x in p.items() if np.ndim(x) == 0 and x == 0)
-    tape, (na, nb, _) = kernels.boundaries(kind, equations, zeros)
-    results = tape(p)
+    tape, (na, nb, _) = kernels.boundaries(kind, equations, block.zeros - {"C_s"})
+    results = tape(block.values)
     A, B, F = results[:na], results[na : na + nb], results[na + nb :]
     n = results.shape[1]
     isolated = isolate(F)
-    found = _crossings(A, B, isolated.owner, isolated.low, isolated.high)
-    places, table = _table(found, n)
-    critical, omega, direction, residual = (_spread(x, places, table) for x in found[1:])
-    unstable, doubtful = _counted(A, B, critical, p["K_ds"])
+    with np.errstate(all="ignore"):  # what overflows has no small residual, and fails
+        found = _crossings(A, B, isolated.owner, isolated.low, isolated.high)
+    rows = Rows(found.owner, found.C_s, n)
+    critical, omega, direction, residual = map(rows.spread, found[1:])
+    unstable, doubtful = _counted(A, B, critical, block.values["K_ds"])
     known = ~np.isnan(critical)
     steps = np.diff(unstable, axis=1)
     with np.errstate(invalid="ignore"):
@@ -95,9 +115,9 @@ def critical_field(p: Values, *, kind: str, equations: str) -> CriticalField:
 
 
 def _crossings(A: Float, B: Float, owner: NDArray[np.intp], low: Float, high: Float) -> _Crossings:
-    parts = _Parts(*(np.array(_equal(half)) for p in (A, B) for half in even_odd(tuple(p))))
-    x = _refined(parts.of(owner), low, high)
+    parts = _Parts(*(np.array(half) for p in (A, B) for half in even_odd(tuple(p))))
     mine = parts.of(owner)
+    x = _refined(mine, low, high)
     (ea, oa, eb, ob), (dea, doa, deb, dob) = _values(mine, x)
     C_s = -(ea * eb + x * oa * ob) / (eb * eb + x * ob * ob)
     keep = (C_s > 0) & np.isfinite(C_s)
@@ -107,36 +127,34 @@ def _crossings(A: Float, B: Float, owner: NDArray[np.intp], low: Float, high: Fl
     slope = 2 * omega * even + 1j * (oa + C_s * ob + 2 * x * odd)
     velocity = -1j * (eb + 1j * omega * ob) / slope
     error = np.hypot(ea + C_s * eb, omega * (oa + C_s * ob)) / _size(A, B, owner, C_s, omega)
-    columns = owner, C_s, omega * TIME_UNIT, np.sign(velocity.real), error
-    return _Crossings(*(column[keep] for column in columns))
-
-
-def _equal(half: Any) -> list[Float]:
-    return [np.asarray(x) for x in half]
+    columns = (x[keep] for x in (C_s, omega * TIME_UNIT, np.sign(velocity.real), error))
+    return _Crossings(owner[keep], *columns)
 
 
 def _refined(parts: _Parts, low: Float, high: Float) -> Float:
     """Return the root of E_B O_A - E_A O_B in every interval by Newton's method, kept inside by halving."""
     rising = _function(parts, low)[0] < 0
-    x = np.sqrt(low * high)
-    x = np.where(low > 0, x, high / 2)
-    active = np.arange(len(x))
+    root = _middle(low, high)
+    active, x = np.arange(len(root)), root
     for _ in range(ITERATIONS):
-        some = parts.of(active) if len(active) < len(x) else parts
-        value, slope = _function(some, x[active])
-        below = (value < 0) == rising[active]
-        low[active] = np.where(below, x[active], low[active])
-        high[active] = np.where(below, high[active], x[active])
-        with np.errstate(all="ignore"):
-            new = x[active] - value / slope
-        inside = (new > low[active]) & (new < high[active])
-        new = np.where(inside, new, (low[active] + high[active]) / 2)
-        moving = np.abs(new - x[active]) > CONVERGED * new
-        x[active] = new
-        active = active[moving]
+        value, slope = _function(parts, x)
+        below = (value < 0) == rising
+        low, high = np.where(below, x, low), np.where(below, high, x)
+        new = x - value / slope
+        new = np.where((new >= low) & (new <= high), new, _middle(low, high))
+        moving = np.abs(new - x) > CONVERGED * new
+        root[active] = x = new
+        if 2 * np.count_nonzero(moving) < len(active):  # to carry the finished along costs less than to part them
+            active, parts = active[moving], parts.of(np.flatnonzero(moving))
+            x, low, high, rising = x[moving], low[moving], high[moving], rising[moving]
         if not len(active):
             break
-    return x
+    return root
+
+
+def _middle(low: Float, high: Float) -> Float:
+    """Return the geometric mean: an interval may reach over many powers of ten."""
+    return np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 2)
 
 
 def _function(parts: _Parts, x: Float) -> tuple[Float, Float]:
@@ -167,20 +185,30 @@ def _size(A: Float, B: Float, owner: NDArray[np.intp], C_s: Float, omega: Float)
     return np.asarray(a + np.abs(C_s) * b)
 
 
-def _table(found: _Crossings, n: int) -> tuple[Any, tuple[int, int]]:
-    """Return where each crossing stands in a table with a row for every point, in rising order of C_s."""
-    order = np.lexsort((found.C_s, found.owner))
-    owner = found.owner[order]
-    count = np.bincount(owner, minlength=n)
-    rank = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
-    return (order, owner, rank), (n, int(count.max(initial=0)))
+class Rows:
+    """A table with a row for every point, filled from its left end with values in rising order.
 
+    Parameters
+    ----------
+    owner : array of int
+        To which point each value belongs.
+    key : array
+        By what the values of a point are ordered.
+    n : int
+        Number of points.
+    """
 
-def _spread(column: Float, places: Any, shape: tuple[int, int]) -> Float:
-    order, owner, rank = places
-    out = np.full(shape, np.nan)
-    out[owner, rank] = column[order]
-    return out
+    def __init__(self, owner: NDArray[np.intp], key: Float, n: int) -> None:
+        self._order = np.lexsort((key, owner))
+        self._owner = owner[self._order]
+        self.count = np.bincount(owner, minlength=n)
+        self._rank = np.arange(len(owner)) - np.repeat(np.cumsum(self.count) - self.count, self.count)
+
+    def spread(self, column: Float) -> Float:
+        """Return the table of a column; what is not there is NaN."""
+        out = np.full((len(self.count), int(self.count.max(initial=0))), np.nan)
+        out[self._owner, self._rank] = column[self._order]
+        return out
 
 
 def _counted(A: Float, B: Float, critical: Float, K_ds: Any) -> tuple[Float, NDArray[np.bool_]]:

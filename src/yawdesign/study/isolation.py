@@ -5,7 +5,6 @@ no root, where they change it once there is exactly one (Descartes), and elsewhe
 missed or taken for two, however close it lies to others, down to rounding.
 """
 
-from collections.abc import Sequence
 from functools import lru_cache
 from math import comb
 from typing import Any, NamedTuple
@@ -17,7 +16,6 @@ Float = NDArray[np.float64]
 
 CELLS = 40
 RANGE = (1e-4, 1e4)  # of the variable, in cells spaced geometrically; two more cells reach from zero and to infinity
-FARTHEST = 1e40  # stands for infinity
 HALVINGS = 30
 BLOCK = 1024  # polynomials
 
@@ -61,10 +59,13 @@ def _isolate(F: Float, offset: int) -> tuple[Any, Float, Float, Any]:
     size, n = F.shape
     basis, low, high, inverse = _cells(size)
     coefficients = (basis @ F).reshape(size, len(low), n)
+    # The value at an edge is rounded in two ways; both cells must see the same sign, or a root there counts twice.
+    coefficients[0, 1:-1] = coefficients[-1, :-2]
+    coefficients[-1, -1] = np.copysign(coefficients[-1, -1], coefficients[-1, -2])
     changes = _sign_changes(coefficients)
     cell, owner = np.nonzero(changes)
     found = changes[cell, owner]
-    state = (owner, cell, np.zeros(len(cell)), np.ones(len(cell)), coefficients[:, cell, owner])
+    state: list[Any] = [owner, cell, np.zeros(len(cell)), np.ones(len(cell)), coefficients[:, cell, owner]]
     done, state = _sorted_out(state, found)
     pieces = [done]
     for _ in range(HALVINGS):
@@ -79,16 +80,23 @@ def _isolate(F: Float, offset: int) -> tuple[Any, Float, Float, Any]:
     turned = inverse[cell]
     with np.errstate(divide="ignore"):
         start, end = np.where(turned, 1 / ends[1], ends[0]), np.where(turned, 1 / ends[0], ends[1])
-    return owner + offset, start, np.minimum(end, FARTHEST), state[0] + offset
+    return owner + offset, start, np.minimum(end, _farthest(F)[owner]), state[0] + offset
 
 
-def _sorted_out(state: Sequence[Any], changes: NDArray[np.uint8]) -> tuple[list[Any], list[Any]]:
+def _farthest(F: Float) -> Float:
+    """Return Fujiwara's bound on the magnitude of all roots."""
+    with np.errstate(all="ignore"):
+        logarithms = np.log(np.abs(F[:-1] / F[-1])) / np.arange(len(F) - 1, 0, -1)[:, None]
+    return np.asarray(2 * np.exp(np.minimum(np.max(logarithms, axis=0), 300.0)))
+
+
+def _sorted_out(state: list[Any], changes: NDArray[np.uint8]) -> tuple[list[Any], list[Any]]:
     """Return the intervals with one root, and those that may have more."""
     one, more = changes == 1, changes > 1
     return [x[one] for x in state[:4]], [x[..., more] for x in state]
 
 
-def _halved(state: Sequence[Any]) -> tuple[list[Any], NDArray[np.uint8]]:
+def _halved(state: list[Any]) -> tuple[list[Any], NDArray[np.uint8]]:
     """Return both halves of all intervals (de Casteljau), and the sign changes in them."""
     owner, cell, left, right, b = state
     middle = (left + right) / 2

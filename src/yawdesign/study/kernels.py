@@ -59,6 +59,23 @@ def boundaries(kind: str, equations: str, zeros: Zeros = frozenset()) -> tuple[T
 
 
 @lru_cache
+def unstable_roots(kind: str, equations: str, zeros: Zeros = frozenset()) -> Tape:
+    """Return the tape that counts the unstable roots of the coupled motion.
+
+    Inputs: parameters, C_s, v. Outputs: the count, and the number of doubtful steps in it.
+    """
+    p, c = _bogie(kind, equations, zeros)
+    return _tape(p, _count(scale_variable(_without_zeros(c.core(p["C_s"])), TIME_UNIT)))
+
+
+@lru_cache
+def decoupled(kind: str, equations: str, zeros: Zeros = frozenset()) -> tuple[Tape, tuple[str, ...]]:
+    """Return the tape of the polynomials k + c s + m s^2 of the decoupled motions, k, c, m of each, and their names."""
+    p, c = _bogie(kind, equations, zeros)
+    return _tape(p, [a for factor in c.factors.values() for a in factor]), tuple(c.factors)
+
+
+@lru_cache
 def counts(size: int) -> Tape:
     """Return the tape that counts the unstable roots of a polynomial with so many coefficients a0, a1, ...
 

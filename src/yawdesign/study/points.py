@@ -1,18 +1,30 @@
-"""Answers for a block of points."""
+"""Answers at many points: the fast way, checked, and the thorough way where a check fails."""
 
-from collections.abc import Iterator, Mapping
+import os
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign.study import thorough
+from yawdesign.design.curving import curving_limit, rotational_resistance
+from yawdesign.study import kernels, thorough
+from yawdesign.study.block import Block
+from yawdesign.study.choice import choose
+from yawdesign.study.critical import CriticalField, critical_field
+from yawdesign.study.margins import margins
 from yawdesign.study.question import Answers, Question
+from yawdesign.study.speeds import critical_speeds
 
-Values = Mapping[str, Any]
+Bools = NDArray[np.bool_]
+
+LENGTH = 16384  # points that one thread looks at
+VERDICTS = 32768  # the same for verdicts, which need less memory a point
 
 
-def evaluate(question: Question, p: Values) -> Answers:
+def evaluate(question: Question, p: Mapping[str, Any], *, threads: int | None = None) -> Answers:
     """Return the answers to a question at many points.
 
     Parameters
@@ -22,45 +34,131 @@ def evaluate(question: Question, p: Values) -> Answers:
     p : mapping
         Symbols of Table I in SI units, ``C_s`` where the question needs it and ``v`` where it is an axis: numbers, or
         arrays of one common length.
+    threads : int, optional
+        How many threads share the points; one for every core if not given.
 
     Returns
     -------
     Answers
     """
-    points = list(_points(p))
-    if question.of == "critical":
-        return _critical(question, points)
-    found = [[thorough.margin(question, {**x, "v": v}) for v in _speeds(question, x)] for x in points]
-    values = np.array([min(value for value, _ in cases) for cases in found])
-    checked = np.array([all(checked for _, checked in cases) for cases in found])
-    return Answers({question.of: values}, np.ones(len(points), dtype=bool), ~checked)
+    blocks = list(Block.split(p, VERDICTS if question.of == "stable" else LENGTH))
+    workers = min(threads or os.cpu_count() or 1, len(blocks))
+    if workers == 1:
+        return _joined([_answer(question, block) for block in blocks])
+    with ThreadPoolExecutor(workers) as pool:
+        return _joined(list(pool.map(lambda block: _answer(question, block), blocks)))
 
 
-def _speeds(question: Question, p: Values) -> tuple[float, ...]:
-    return (p["v"],) if "v" in p else question.speeds
+def _answer(question: Question, block: Block) -> Answers:
+    match question.of:
+        case "stable":
+            return _verdicts(question, block)
+        case "decay_rate" | "damping_ratio":
+            values, passed = margins(question, block)
+            return _mended(question, block, values, ~passed)
+        case "critical":
+            return _critical(question, block)
+        case "critical_speed":
+            return critical_speeds(question, block)
+    return _design(question, block)
 
 
-def _points(p: Values) -> Iterator[dict[str, float]]:
-    size = max(np.size(x) for x in p.values())
-    whole = {name: np.broadcast_to(np.asarray(x, dtype=float), size) for name, x in p.items()}
-    for k in range(size):
-        yield {name: float(x[k]) for name, x in whole.items()}
+def _verdicts(question: Question, block: Block) -> Answers:
+    stable, sure = np.ones((2, block.size), dtype=bool)
+    for case in block.cases(question.speeds):
+        verdict = kernels.verdicts(question.kind, question.equations, case.zeros)(case.values)
+        stable &= verdict[0] > 0
+        sure &= verdict[1] > 0
+    return _mended(question, block, stable, ~sure)
 
 
-def _critical(question: Question, points: list[dict[str, float]]) -> Answers:
-    found = [thorough.critical(question, {**x, "v": _speeds(question, x)[0]}) for x in points]
+def _mended(question: Question, block: Block, values: NDArray[Any], doubtful: Bools) -> Answers:
+    """Return the values, the doubtful ones computed the thorough way."""
+    unverified = np.zeros_like(doubtful)
+    for k in np.flatnonzero(doubtful):
+        values[k], checked = thorough.margin(question, block.point(k))
+        unverified[k] = not checked
+    return Answers({question.of: values}, doubtful, unverified)
+
+
+@dataclass(frozen=True)
+class _Checked:
+    """Critical values of a block at one speed, with what became of the points that failed a check."""
+
+    field: CriticalField
+    recomputed: Bools
+    unverified: Bools
+
+
+def _checked_field(question: Question, case: Block) -> _Checked:
+    field = critical_field(case, kind=question.kind, equations=question.equations)
+    failed = ~field.passed
+    found = {int(k): thorough.critical(question, case.point(k)) for k in np.flatnonzero(failed)}
+    unverified = np.zeros_like(failed)
+    unverified[[k for k, sets in found.items() if not sets.checked]] = True
+    return _Checked(field.with_rows(found) if found else field, failed, unverified)
+
+
+def _critical(question: Question, block: Block) -> Answers:
+    checked = _checked_field(question, block.cases(question.speeds)[0])
+    field = checked.field
     columns = {
-        "critical": padded([[x.C_s for x in sets.critical] for sets in found]),
-        "omega": padded([[x.omega for x in sets.critical] for sets in found]),
-        "unstable_roots": padded([sets.unstable_roots for sets in found]),
-        "count": np.array([len(sets.critical) for sets in found]),
+        "critical": field.critical,
+        "omega": field.omega,
+        "unstable_roots": field.unstable_roots,
+        "count": np.sum(~np.isnan(field.critical), axis=1),
     }
-    return Answers(columns, np.ones(len(found), dtype=bool), np.array([not sets.checked for sets in found]))
+    return Answers(columns, checked.recomputed, checked.unverified)
 
 
-def padded(rows: list[Any]) -> NDArray[np.float64]:
-    """Return rows of unequal length as one array, filled up with NaN."""
-    out = np.full((len(rows), max(map(len, rows), default=0)), np.nan)
-    for row, values in zip(out, rows, strict=True):
-        row[: len(values)] = values
-    return out
+def _design(question: Question, block: Block) -> Answers:
+    checked = [_checked_field(question, case) for case in block.cases(question.speeds)]
+    recomputed = np.any([x.recomputed for x in checked], axis=0)
+    unverified = np.any([x.unverified for x in checked], axis=0)
+    p, curve = block.values, question.curve
+    upper = np.full(block.size, np.inf if curve is None else curving_limit(p, curve))
+    choice = choose([x.field for x in checked], upper, _damped(question, block))
+    status = np.where(unverified, "unverified", choice.status)
+    C_sl = np.where(unverified, np.nan, choice.C_sl)
+    if question.of == "C_sl":
+        return Answers({"C_sl": C_sl, "status": status}, recomputed, unverified)
+    C_s = np.where(unverified, np.nan, choice.C_s)
+    columns = {"C_s": C_s, "C_sl": C_sl, "C_su": np.where(np.isinf(upper), np.nan, upper), "status": status}
+    if curve is not None:
+        with np.errstate(all="ignore"):
+            columns["rotational_resistance"] = np.full(block.size, rotational_resistance({**p, "C_s": C_s}, C_s, curve))
+    return _confirmed(question, block, Answers(columns, recomputed, unverified))
+
+
+def _confirmed(question: Question, block: Block, answers: Answers) -> Answers:
+    """Return a design with the verdicts on its C_s: a design that is not stable by them is no design."""
+    C_s = answers.columns["C_s"]
+    chosen = ~np.isnan(C_s)
+    asked = Question("stable", question.kind, question.equations, question.speeds)
+    verdicts = _verdicts(asked, block.with_values(C_s=np.where(chosen, C_s, 1.0)))
+    confirmed = np.asarray(verdicts.columns["stable"], dtype=bool)
+    stable = confirmed & chosen
+    unverified = answers.unverified | (chosen & (verdicts.unverified | ~confirmed))
+    return Answers({**answers.columns, "stable": stable}, answers.recomputed, unverified)
+
+
+def _damped(question: Question, block: Block) -> Bools:
+    """Return whether the motions of their own are damped: their stiffness and their damping positive."""
+    tape, names = kernels.decoupled(question.kind, question.equations, block.zeros)
+    values = tape({**block.values, "v": 1.0}) if names else np.ones((1, 1))
+    return np.broadcast_to((values > 0).all(axis=0), block.size)
+
+
+def _joined(parts: Sequence[Answers]) -> Answers:
+    """Return the answers of all blocks, one after the other."""
+    columns = {name: joined([part.columns[name] for part in parts]) for name in parts[0].columns}
+    flags = [np.concatenate([getattr(part, name) for part in parts]) for name in ("recomputed", "unverified")]
+    return Answers(columns, *flags)
+
+
+def joined(arrays: Sequence[NDArray[Any]]) -> NDArray[Any]:
+    """Return arrays one after the other; rows of unequal length are filled up with NaN."""
+    if arrays[0].ndim == 1:
+        return np.concatenate(arrays)
+    width = max(x.shape[1] for x in arrays)
+    return np.concatenate([np.pad(x, ((0, 0), (0, width - x.shape[1])), constant_values=np.nan) for x in arrays])

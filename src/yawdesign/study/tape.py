@@ -6,9 +6,8 @@ whose scalars are vectors of points. Both do the same operations in the same ord
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import cached_property, partial
+from threading import Lock, local
 from typing import Any
 
 import casadi as ca
@@ -17,10 +16,11 @@ from numpy.typing import NDArray
 
 from yawdesign.study import compiled
 from yawdesign.study.compiled import Run
+from yawdesign.study.program import Program, Step
 
 Float = NDArray[np.float64]
 BLOCK = 8192  # points; long enough that NumPy's calls cost little, and a row still fits the innermost caches
-MANY = 20_000  # points from which on a compilation of about a second pays
+MANY = 100_000  # points after which a compilation, about half a second, has paid
 
 BINARY = {
     ca.OP_ADD: (np.add, "{0} + {1}"),
@@ -39,10 +39,10 @@ DOUBLED = {ca.OP_SQ: ca.OP_MUL, ca.OP_TWICE: ca.OP_ADD}
 
 
 @dataclass(frozen=True)
-class Step:
-    """One operation: ``register[target] = operation(register[i] for i in sources)``."""
+class Operation:
+    """One operation of the graph: CasADi's code for it, the register of the result, those of its operands."""
 
-    operation: int
+    code: int
     target: int
     sources: tuple[int, ...]
 
@@ -67,8 +67,11 @@ class Tape:
         self.inputs = tuple(function.name_in())
         self.size = function.nnz_out()
         self.constants: dict[int, float] = {}
-        self.steps: list[Step] = []
+        self.steps: list[Operation] = []
         self.results = [-1] * self.size
+        self._lock, self._asked, self._tried = Lock(), 0, False
+        self._fast: Run | None = None
+        self._own = local()
         self._record(function)
 
     def _record(self, function: ca.Function) -> None:
@@ -97,39 +100,36 @@ class Tape:
             operation, sources = DOUBLED[operation], (sources[0], sources[0])
         if operation not in BINARY and operation not in UNARY:
             raise NotImplementedError(f"no array operation for CasADi's operation {operation}")
-        self.steps.append(Step(operation, target, sources))
+        self.steps.append(Operation(operation, target, sources))
 
-    def __call__(self, values: Mapping[str, Any], *, threads: int = 1) -> Float:
+    def __call__(self, values: Mapping[str, Any]) -> Float:
         """Return the outputs at many points.
 
         Parameters
         ----------
         values : mapping
-            A number, or an array with one value for each point, for every input.
-        threads : int
-            Among how many threads the points are shared.
+            A number, or an array with one value for each point, for every input. Others may be there: they are not
+            read, but count as points.
 
         Returns
         -------
         ndarray, shape (size, points)
         """
         arguments = [np.ascontiguousarray(values[name], dtype=float) for name in self.inputs]
-        points = max((x.size for x in arguments), default=1)
+        points = max(np.size(x) for x in values.values())
         out = np.empty((self.size, points))
-        run: Run = (self._compiled if points >= MANY else None) or self._interpret
-        edges = shares(points, threads, BLOCK)
-        if len(edges) == 1:
-            run(arguments, out, *edges[0])
-        else:
-            with ThreadPoolExecutor(len(edges)) as pool:
-                for done in [pool.submit(run, arguments, out, *edge) for edge in edges]:
-                    done.result()
+        self._runner(points)(arguments, out, 0, points)
         return out
 
-    @cached_property
-    def _compiled(self) -> Run | None:
-        run = compiled.load(self.source())
-        return run if run and self._agrees(run) else None
+    def _runner(self, points: int) -> Run:
+        """Return how to run: compiled, once so many points were asked for that compiling has paid."""
+        with self._lock:
+            self._asked += points
+            if self._asked >= MANY and not self._tried:
+                self._tried = True
+                run = compiled.load(self.source())
+                self._fast = run if run and self._agrees(run) else None
+            return self._fast or self._interpret
 
     def _agrees(self, run: Run) -> bool:
         """Return whether compiled code gives the bits of NumPy at points that cover full and broken vectors."""
@@ -145,66 +145,25 @@ class Tape:
         lines = [f"  const vector r{k} = load(in[{k}], stride[{k}], point, end);" for k in range(len(self.inputs))]
         lines += [f"  const vector r{k} = ZERO + {_literal(x)};" for k, x in self.constants.items()]
         for step in self.steps:
-            text = (BINARY if len(step.sources) == 2 else UNARY)[step.operation][1]
+            text = (BINARY if len(step.sources) == 2 else UNARY)[step.code][1]
             lines.append(f"  const vector r{step.target} = {text.format(*(f'r{i}' for i in step.sources))};")
         lines += [f"  store(out + {k} * points, r{register}, point, end);" for k, register in enumerate(self.results)]
         return "\n".join(lines)
 
     def _interpret(self, arguments: Sequence[Float], out: Float, start: int, end: int) -> None:
-        """Run the operations with NumPy, block by block."""
-        with np.errstate(all="ignore"):
-            calls, inputs, results = self._bind(arguments, min(BLOCK, end - start))
-            for first in range(start, end, BLOCK):
-                last = min(first + BLOCK, end)
-                for k, row in inputs.items():
-                    row[: last - first] = arguments[k][first:last]
-                for function, operands in calls:
-                    function(*operands)
-                for k, row in enumerate(results):
-                    out[k, first:last] = row[: last - first] if row.size > 1 else row
-
-    def _bind(self, arguments: Sequence[Float], length: int) -> tuple[list[Any], dict[int, Float], list[Float]]:
-        """Return the operations bound to rows of a buffer, the rows of the inputs, and those of the results.
-
-        What is the same for all points is computed here. A row is used again after the last step that reads it.
-        """
-        same = {k: x.reshape(()) for k, x in enumerate(arguments) if x.size == 1}
-        same |= {k: np.array(x) for k, x in self.constants.items()}
-        inputs = {k: np.ones(length) for k, x in enumerate(arguments) if x.size > 1}
-        place: dict[int, Any] = same | inputs
-        free: dict[str, list[Any]] = {"d": [], "?": []}
-        last_use = {i: k for k, step in enumerate(self.steps) for i in step.sources}
-        kept, calls = {*self.results, *inputs}, []
-        for k, step in enumerate(self.steps):
-            function = (BINARY if len(step.sources) == 2 else UNARY)[step.operation][0]
-            operands = [place[i] for i in step.sources]
-            if all(i in same for i in step.sources):
-                same[step.target] = place[step.target] = np.asarray(function(*operands), dtype=float)
-                continue
-            kind = self._kind(step, operands)
-            row = place[step.target] = free[kind].pop() if free[kind] else np.ones(length, dtype=kind)
-            calls.append((_as_numbers(function, operands) if kind == "d" else function, (*operands, row)))
-            for i in {i for i in step.sources if last_use[i] == k and i not in same and i not in kept}:
-                free[place[i].dtype.char].append(place[i])
-        return calls, inputs, [place[k] for k in self.results]
-
-    @staticmethod
-    def _kind(step: Step, operands: Sequence[Any]) -> str:
-        """Return the type of a result: comparisons and products of them need one byte, not eight."""
-        logical = step.operation == ca.OP_LT or (step.operation == ca.OP_MUL and all(x.dtype == bool for x in operands))
-        return "?" if logical else "d"
+        """Run the operations with NumPy."""
+        length = min(BLOCK, 1 << (end - start - 1).bit_length())
+        key = length, tuple(x.size == 1 for x in arguments)
+        programs: dict[Any, Program] = vars(self._own).setdefault("programs", {})
+        if key not in programs:
+            steps = [_bound(step) for step in self.steps]
+            programs[key] = Program(steps, self.constants, key[1], self.results, length)
+        programs[key](arguments, out, start, end)
 
 
-def _as_numbers(function: Callable[..., Any], operands: Sequence[Any]) -> Callable[..., Any]:
-    """Return the function such that it takes comparisons for numbers: NumPy's sum of two of them is one of them."""
-    return partial(function, dtype=float) if any(x.dtype == bool for x in operands) else function
-
-
-def shares(points: int, threads: int, least: int) -> list[tuple[int, int]]:
-    """Return the first and the last point but one of every thread, at least so many points each."""
-    parts = max(1, min(threads, points // least))
-    size = -(-points // (parts * least)) * least
-    return [(first, min(first + size, points)) for first in range(0, points, size)]
+def _bound(step: Operation) -> Step:
+    function = (BINARY if len(step.sources) == 2 else UNARY)[step.code][0]
+    return Step(function, step.target, step.sources, step.code == ca.OP_LT, step.code == ca.OP_MUL)
 
 
 def _literal(value: float) -> str:

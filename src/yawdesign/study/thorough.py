@@ -10,9 +10,10 @@ Point = Mapping[str, float]
 
 
 def margin(question: Question, p: Point) -> tuple[float | bool, bool]:
-    """Return verdict or margin at one point and one speed, and whether it was confirmed."""
-    found = stability_at(p, p["C_s"], question.variables, **question.model)
-    return getattr(found, question.of), found.checked
+    """Return the worst verdict or margin of all speeds at one point, and whether it was confirmed."""
+    cases = [p["v"]] if "v" in p else question.speeds
+    found = [stability_at({**p, "v": v}, p["C_s"], question.variables, **question.model) for v in cases]
+    return min(getattr(x, question.of) for x in found), all(x.checked for x in found)
 
 
 def critical(question: Question, p: Point) -> CriticalDamping:

@@ -1,0 +1,147 @@
+"""A mode in motion, in plan view: as a GIF, or as an SVG that moves by a few lines of script."""
+
+import io
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from yawdesign.output.mode_plots import mode_shape
+from yawdesign.output.plan_view import COLOURS, REST, Body, Corner, bodies, caption, find_mode, half_size, subtitle
+from yawdesign.problem import ProblemError
+
+if TYPE_CHECKING:
+    from yawdesign.response.modes import Modes, NamedMode
+
+FRAMES, PERIOD = 24, 1.6  # pictures and seconds of a cycle
+SCALE = 100.0  # units of the SVG in a metre
+
+SCRIPT = """(function () {
+  var svg = document.currentScript.closest("svg"), parts = svg.querySelectorAll("g[data-y]");
+  function number(part, name) { return part.getAttribute("data-" + name).split(" ").map(Number); }
+  function step(time) {
+    var phase = 2 * Math.PI * (time / 1000 / PERIOD % 1), c = Math.cos(phase), s = Math.sin(phase);
+    if (REAL) { c = Math.exp(-phase / 1.5); s = 0; }
+    parts.forEach(function (part) {
+      var y = number(part, "y"), phi = number(part, "phi"), x = part.getAttribute("data-x");
+      part.setAttribute("transform", "translate(" + x + "," + -(y[0] * c - y[1] * s) + ") rotate(" +
+        -(phi[0] * c - phi[1] * s) * 180 / Math.PI + ")");
+    });
+    requestAnimationFrame(step);
+  }
+  requestAnimationFrame(step);
+})();"""
+
+
+def animate(result: "Modes", to: str | Path, *, mode: str | None = None) -> Path:
+    """Write a mode in motion to a file.
+
+    An oscillating mode is shown over one cycle, without its decay or growth; another one as it dies out.
+
+    Parameters
+    ----------
+    result : Modes
+        What `yawdesign.modes` returns.
+    to : str or Path
+        The file; its ending, .gif or .svg, says what is written. The SVG needs nothing but itself, and a viewer that
+        runs scripts.
+    mode : str, optional
+        Name of the mode; the least damped one if not given.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    ProblemError
+        If the ending or the mode is not known.
+    """
+    path = Path(to)
+    makers = {".gif": gif, ".svg": svg}
+    if path.suffix.lower() not in makers:
+        raise ProblemError(f"{path.name}: a mode is written as .gif or .svg")
+    content = makers[path.suffix.lower()](result, mode)
+    beside = path.with_name(path.name + ".part")
+    try:
+        beside.write_bytes(content)
+        beside.replace(path)
+    finally:
+        beside.unlink(missing_ok=True)
+    return path
+
+
+def gif(result: "Modes", mode: str | None = None) -> bytes:
+    """Return a GIF of a mode. Arguments as in `animate`."""
+    from matplotlib.figure import Figure
+    from PIL import Image
+
+    pictures = []
+    for k in range(FRAMES):
+        figure = Figure(figsize=(5.6, 4.2), dpi=80, layout="constrained")
+        mode_shape(result, figure.add_subplot(), mode=mode, phase=2 * math.pi * k / FRAMES)
+        picture = io.BytesIO()
+        figure.savefig(picture, format="png")
+        pictures.append(Image.open(picture).convert("RGB").quantize(64))
+    out = io.BytesIO()
+    duration = int(1000 * PERIOD / FRAMES)
+    pictures[0].save(out, "GIF", save_all=True, append_images=pictures[1:], duration=duration, loop=0)
+    return out.getvalue()
+
+
+def svg(result: "Modes", mode: str | None = None) -> bytes:
+    """Return an SVG of a mode, to stand alone or inside an HTML page. Arguments as in `animate`."""
+    chosen = find_mode(result, mode)
+    return _svg(result, chosen).encode()
+
+
+def _svg(result: "Modes", mode: "NamedMode") -> str:
+    length, width = (SCALE * size for size in half_size(result))
+    shown = bodies(result, mode)
+    rails = [_line(-length, length, side * SCALE * result.parameters["b"]) for side in (1, -1)]
+    at_rest = [_group(body, f'fill="none" stroke="{REST}"', body.x, 0.0, 0.0) for body in shown]
+    texts = [
+        f'<text x="0" y="{y:.1f}" text-anchor="middle" font-size="12" font-family="sans-serif">{line}</text>'
+        for y, line in (
+            (-width - 20, caption(mode)),
+            (-width - 4, subtitle(result)),
+            (width + 8, "amplitude not to scale; direction of travel: to the right"),
+        )
+    ]
+    box = f"{-length:.1f} {-width - 36:.1f} {2 * length:.1f} {2 * width + 52:.1f}"
+    size = f'width="{2 * length:.0f}" height="{2 * width + 52:.0f}"'
+    script = SCRIPT.replace("PERIOD", f"{PERIOD}").replace("REAL", "true" if mode.frequency == 0 else "false")
+    return "\n".join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{box}" {size} role="img">',
+            f"<title>{caption(mode)}</title>",
+            *texts,
+            *rails,
+            *at_rest,
+            *(_moving(body) for body in shown),
+            f"<script>{script}</script>",
+            "</svg>\n",
+        ]
+    )
+
+
+def _line(start: float, end: float, y: float) -> str:
+    return f'<line x1="{start:.1f}" x2="{end:.1f}" y1="{y:.1f}" y2="{y:.1f}" stroke="{REST}" stroke-width="3"/>'
+
+
+def _moving(body: Body) -> str:
+    style = f'fill="{COLOURS[body.kind]}" fill-opacity="0.75" stroke="black"'
+    motion = (
+        f'data-x="{SCALE * body.x:.2f}" data-y="{SCALE * body.y.real:.4f} {SCALE * body.y.imag:.4f}" '
+        f'data-phi="{body.phi.real:.6f} {body.phi.imag:.6f}"'
+    )
+    return _group(body, f"{style} {motion}", body.x, body.y.real, body.phi.real)
+
+
+def _group(body: Body, style: str, x: float, y: float, phi: float) -> str:
+    place = f'transform="translate({SCALE * x:.2f},{-SCALE * y:.3f}) rotate({-math.degrees(phi):.4f})"'
+    return f"<g {style} {place}>{''.join(_polygon(outline) for outline in body.outlines)}</g>"
+
+
+def _polygon(outline: tuple[Corner, ...]) -> str:
+    return f'<polygon points="{" ".join(f"{SCALE * x:.1f},{-SCALE * y:.1f}" for x, y in outline)}"/>'

@@ -1,0 +1,1 @@
+"""A problem's functions as files for other codes."""

@@ -1,0 +1,53 @@
+"""The manifest: what every exported function takes and gives, and how to check it."""
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from yawdesign.design.functions import Documented, Functions, versions
+from yawdesign.output.export.c_files import HEADER_FILE, SOURCE, symbol
+from yawdesign.output.export.folder import GENERATOR, MANIFEST, write_text
+from yawdesign.output.export.parcel import Parcel
+from yawdesign.problem.result import plain
+from yawdesign.stability.routh import TIME_UNIT
+
+TIME_SCALE = {
+    "value": TIME_UNIT,
+    "unit": "rad/s",
+    "meaning": "polynomials and Routh columns are in s divided by this",
+}
+TOLERANCE = {"relative": 1e-9, "absolute": 1e-12, "meaning": "relative to the largest entry of each output"}
+
+
+def write_manifest(parcel: Parcel, files: Sequence[str], notes: Sequence[str], folder: Path) -> str:
+    """Write manifest.json and return its name."""
+    described = Functions(parcel.functions).to_dict()
+    manifest = {
+        "generator": GENERATOR,
+        "versions": versions(),
+        "title": parcel.problem.title,
+        "kind": parcel.problem.bogie.kind,
+        "equations": parcel.problem.equations,
+        "load": None if parcel.problem.curve is None else parcel.problem.curve.load,
+        "matrices": "column by column, in C and in the self-tests",
+        "tolerance": TOLERANCE,
+        "files": [*files, MANIFEST],
+        "notes": list(notes),
+        "functions": {
+            name: _entry(name, described[name], f, parcel.tests[name], files) for name, f in parcel.functions.items()
+        },
+    }
+    return write_text(folder / MANIFEST, json.dumps(plain(manifest), indent=1, ensure_ascii=False) + "\n")
+
+
+def _entry(name: str, described: Mapping[str, Any], f: Documented, test: Any, files: Sequence[str]) -> dict[str, Any]:
+    own = {"casadi": f"{name}.casadi", "c": SOURCE, "header": HEADER_FILE}
+    return {
+        "files": {kind: file for kind, file in own.items() if file in files},
+        "c_symbol": symbol(name),
+        **described,
+        "time_scale": TIME_SCALE,
+        "versions": versions(),
+        "self_test": test,
+    }

@@ -1,0 +1,73 @@
+"""Time histories and pictures as files, written beside their place and renamed."""
+
+import io
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from yawdesign.problem import ProblemError
+
+if TYPE_CHECKING:
+    from yawdesign.response.simulate import Simulation
+
+PICTURES = (".png", ".pdf", ".svg")
+
+
+def checked_ending(path: str, endings: tuple[str, ...]) -> Path:
+    """Return a path that has one of the endings, in a folder that exists; an error otherwise."""
+    file = Path(path)
+    if file.suffix.lower() not in endings:
+        raise ProblemError(f"{path} must end in {' or '.join(endings)}")
+    if not file.parent.is_dir():
+        raise ProblemError(f"{path}: there is no folder {file.parent}")
+    return file
+
+
+def _columns(result: "Simulation") -> dict[str, Any]:
+    """Return all histories below each other, by the head of their column."""
+    import numpy as np
+
+    runs, first = result.histories, result.histories[0]
+    columns = {
+        "speed [m/s]": np.concatenate([np.full(len(h.time), h.speed) for h in runs]),
+        "time [s]": np.concatenate([h.time for h in runs]),
+        "distance [m]": np.concatenate([h.distance for h in runs]),
+    }
+    return columns | {f"{x} [{first.unit(x)}]": np.concatenate([h[x] for h in runs]) for x in first.values}
+
+
+def write_csv(result: "Simulation", path: Path) -> None:
+    """Write all histories as text, speeds below each other, SI units in the head."""
+    import numpy as np
+
+    columns = _columns(result)
+    text = io.StringIO()
+    np.savetxt(text, np.stack(list(columns.values()), 1), "%.9g", ",", header=", ".join(columns), comments="")
+    _replace(path, text.getvalue().encode())
+
+
+def write_npz(result: "Simulation", path: Path) -> None:
+    """Write all histories as NumPy arrays named as in `History.values`, and speed, time and distance, in SI."""
+    import numpy as np
+
+    data = io.BytesIO()
+    np.savez_compressed(data, **{name.split(" ")[0]: values for name, values in _columns(result).items()})
+    _replace(path, data.getvalue())
+
+
+def write_picture(draw: Callable[[], Any], path: Path) -> None:
+    """Write what a function draws, given that it returns its Axes."""
+    data = io.BytesIO()
+    draw().figure.savefig(data, format=path.suffix[1:].lower(), dpi=150)
+    _replace(path, data.getvalue())
+
+
+def _replace(path: Path, content: bytes) -> None:
+    beside = path.with_name(path.name + ".part")
+    try:
+        beside.write_bytes(content)
+        beside.replace(path)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
+    finally:
+        beside.unlink(missing_ok=True)

@@ -1,0 +1,290 @@
+"""Modes followed through a sweep of one parameter, each keeping its identity and its name."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from yawdesign.bogie.characteristic import characteristic
+from yawdesign.problem import PARAMETERS, Problem, ProblemError
+from yawdesign.problem.diagnostics import Mistakes, unknown_key
+from yawdesign.problem.parameters import parameter_keys
+from yawdesign.problem.result import Result
+from yawdesign.problem.running import SPEED
+from yawdesign.problem.table import Parameter
+from yawdesign.response.linking import LOST, Place
+from yawdesign.response.modes import model_of, name_roots, parameters_at
+from yawdesign.response.names import groups_of, normalised, shares, unique_names
+from yawdesign.response.spectrum import Index, Motion, motion, parts, spectrum
+from yawdesign.response.walking import Encounter, walk
+from yawdesign.stability.modes import Complex, Float, backward_error
+from yawdesign.stability.verdict import EXACT, given_damping
+
+SPEED_NAMES = ("v", "speed")
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """Two modes that meet, or nearly, between two values of the parameter.
+
+    Parameters
+    ----------
+    low, high : float
+        The meeting lies between these values of the parameter.
+    modes : tuple of str
+        Who meets.
+    kind : {"become a pair", "become two real roots", "pass close by", "cannot be told apart"}
+        What two roots do as the parameter goes from its first value to its last. Two that pass close by come nearer
+        than 0.1 % of their size; they stay who they are, but their motions are then nearly one, or are exchanged. Two
+        that cannot be told apart coincide, as far as can be resolved; who is who afterwards is not known.
+    eigenvalue : complex
+        Where they meet [1/s].
+    distance : float
+        How near they come [1/s]; 0 for roots that meet.
+    """
+
+    low: float
+    high: float
+    modes: tuple[str, ...]
+    kind: str
+    eigenvalue: complex
+    distance: float
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class FollowedModes(Result):
+    """Modes of a bogie along one parameter.
+
+    Parameters
+    ----------
+    axis, unit : str
+        The parameter, and its SI unit.
+    values : ndarray, shape (points,)
+        Its values.
+    names : tuple of str
+        Of the modes, after what takes part in each most on the average of all points.
+    eigenvalues : ndarray, shape (points, modes)
+        [1/s], on the real axis or above it. A pair of conjugate roots is one mode, a real root is one. Where two real
+        modes meet and become a pair, the mode of the larger root goes on as the pair, and the other is nan until the
+        pair becomes two real roots again.
+    frequency, damping_ratio : ndarray, shape (points, modes)
+        [Hz], [-].
+    certainty : ndarray, shape (points - 1, modes)
+        How sure each link between neighbouring points is: one minus the error of the predicted root, relative to
+        the error the next best root would have had; the least over all steps in between. Above 0.75 unless two modes
+        meet; nan where two meet on the real axis, since what is the same root there is a convention.
+    meetings : tuple of Meeting
+        Where two modes meet.
+    speed, C_s : float or None
+        What was held [m/s], [N s/m]; None for the parameter that was swept.
+    evaluations : int
+        Number of spectra it took.
+    residual : float
+        Largest backward error of the characteristic polynomial at the eigenvalues.
+    checked : bool
+        True if every eigenvalue is a root of the characteristic polynomial, and every link is sure.
+    """
+
+    axis: str
+    unit: str
+    values: Float
+    names: tuple[str, ...]
+    eigenvalues: Complex
+    frequency: Float
+    damping_ratio: Float
+    certainty: Float
+    meetings: tuple[Meeting, ...]
+    speed: float | None
+    C_s: float | None
+    evaluations: int
+    residual: float
+    checked: bool
+
+
+def follow_modes(problem: Problem, **axis: Sequence[float | str] | NDArray[np.float64]) -> FollowedModes:
+    """Follow the modes of a problem's bogie along one parameter.
+
+    Parameters
+    ----------
+    problem : Problem
+        The bogie; with one speed, unless the speed is what varies.
+    **axis
+        One parameter and its values in rising or falling order, SI numbers or texts with a unit: ``v``, or any
+        parameter of the bogie, such as ``C_s=["100 kN s/m", "1 MN s/m"]``.
+
+    Returns
+    -------
+    FollowedModes
+
+    Raises
+    ------
+    ProblemError
+        If there is not one axis, or one of its values is not accepted.
+
+    Examples
+    --------
+    >>> import yawdesign as yd
+    >>> paths = yd.follow_modes(yd.table1(), v=["100 km/h", "200 km/h", "300 km/h"])
+    >>> hunting = paths.names.index("wheelset hunting 1")
+    >>> [round(float(f), 3) for f in paths.frequency[:, hunting]]
+    [1.307, 2.209, 2.553]
+    """
+    name, row, values = _axis(problem, axis)
+    matrices = _matrices(problem, name)
+    systems = [matrices(value) for value in values]
+    _check_states(name, systems)
+    places = parts(np.any([system.matrix != 0 for system in systems], axis=0))
+    paths = [_follow_part(values, matrices, states) for states in places]
+    branches = np.hstack([path.s for path in paths])
+    kept = np.flatnonzero(np.any(branches.imag >= 0, axis=0))
+    kept = kept[np.argsort(_size(branches[:, kept]), kind="stable")]
+    names = _names(systems[0], places, paths, kept)
+    s = np.where(branches.imag >= 0, branches, np.nan)[:, kept]
+    certainty = np.hstack([path.certainty for path in paths])[:, kept]
+    label = {int(k): mode for k, mode in zip(kept, names, strict=True)}
+    meetings = _meetings(paths, label)
+    residual = _residual(problem, name, values, s)
+    sure = all(meeting.kind != LOST for meeting in meetings)
+    return FollowedModes(
+        axis=name,
+        unit=row.si,
+        values=values,
+        names=names,
+        eigenvalues=s,
+        frequency=s.imag / (2 * np.pi),
+        damping_ratio=-s.real / np.abs(s),
+        certainty=certainty,
+        meetings=meetings,
+        speed=None if name == "v" else float(problem.speeds[0]),
+        C_s=None if name == "C_s" else given_damping(problem),
+        evaluations=matrices.cache_info().misses,
+        residual=residual,
+        checked=residual < EXACT and sure,
+    )
+
+
+def _axis(problem: Problem, axis: Mapping[str, Any]) -> tuple[str, Parameter, Float]:
+    """Return the one axis, its row of the table, and its values in SI."""
+    if len(axis) != 1:
+        listed = ", ".join(axis) or "none given"
+        raise ProblemError(f"modes are followed along one parameter, not {len(axis)}: {listed}")
+    (key, given), allowed = next(iter(axis.items())), (*SPEED_NAMES, *parameter_keys(problem.bogie.kind))
+    key = {"lambda_": "lambda", "speed": "v"}.get(key, key)
+    mistakes = Mistakes()
+    with mistakes.under(key):
+        if key not in allowed:
+            raise ProblemError(unknown_key(key, allowed))
+        if key != "v" and len(problem.speeds) > 1:
+            raise ProblemError("is followed at one speed, the problem has a range: problem.replace(speed=...)")
+    mistakes.report()
+    row = SPEED if key == "v" else PARAMETERS[key]
+    return key, row, _values(key, row, given)
+
+
+def _values(key: str, row: Parameter, given: Any) -> Float:
+    listed = [given] if isinstance(given, str) or np.ndim(given) == 0 else list(given)
+    mistakes, values = Mistakes(), []
+    for k, value in enumerate(listed):
+        with mistakes.under(f"{key}[{k}]"):
+            values.append(float(row.check(value.item() if isinstance(value, np.generic) else value)))
+    mistakes.report()
+    steps = np.sign(np.diff(values))
+    if len(values) < 2 or not (np.all(steps > 0) or np.all(steps < 0)):
+        raise ProblemError(f"{key}: give at least two values, all rising or all falling")
+    return np.array(values)
+
+
+def _matrices(problem: Problem, name: str) -> Any:
+    """Return a function that returns, and remembers, the motion at a value of the axis."""
+    p, model = parameters_at(problem, problem.speeds[0]), model_of(problem)
+    C_s = None if name == "C_s" else given_damping(problem)
+
+    @cache
+    def at(value: float) -> Motion:
+        return motion({**p, name: value}, value if C_s is None else C_s, **model)
+
+    return at
+
+
+def _check_states(name: str, systems: Sequence[Motion]) -> None:
+    if len({len(system.matrix) for system in systems}) > 1:
+        raise ProblemError(f"{name}: the value 0 takes a damper out of the model; start above it")
+
+
+@dataclass(frozen=True)
+class _Path:
+    """One part of the motion: its roots along the axis, shape (points, roots), each column the same root."""
+
+    states: tuple[str, ...]
+    s: Complex
+    share: Float
+    twin: Index
+    certainty: Float
+    encounters: tuple[Encounter, ...]
+
+
+def _follow_part(values: Float, matrices: Callable[[float], Motion], states: Index) -> _Path:
+    @cache
+    def at(value: float) -> Place:
+        matrix = matrices(value).matrix[np.ix_(states, states)]
+        return Place(value, matrix, spectrum(matrix))
+
+    walked = walk(values, at)
+    given = np.flatnonzero(np.isin(walked.values, values))
+    # An order of the paths that does not depend on the direction of the walk.
+    sort = np.lexsort((-walked.s[given].imag.mean(axis=0), _size(walked.s[given])))
+    system, places = matrices(float(values[0])), [at(float(value)) for value in values]
+    order, names = walked.order[np.ix_(given, sort)], tuple(system.states[i] for i in states)
+    share = [shares(place.spectrum, names, groups_of(system))[:, k] for place, k in zip(places, order, strict=True)]
+    rank = np.argsort(sort)
+    return _Path(
+        states=names,
+        s=walked.s[np.ix_(given, sort)],
+        share=normalised(np.mean(share, axis=0)),
+        twin=_twins(places, order),
+        certainty=np.minimum.reduceat(walked.certainty, given[:-1])[:, sort],
+        encounters=tuple(replace(e, roots=tuple(rank[list(e.roots)].tolist())) for e in walked.encounters),
+    )
+
+
+def _twins(places: Sequence[Place], order: NDArray[np.intp]) -> Index:
+    """Return for each path its conjugate, or itself where it is real: at the least of the values with most pairs."""
+    k = min(range(len(places)), key=lambda i: (places[i].spectrum.real, places[i].value))
+    return np.asarray(np.argsort(order[k])[places[k].spectrum.twin[order[k]]], dtype=np.intp)
+
+
+def _size(s: Complex) -> Float:
+    """Return the mean distance from the origin, the same for a path that is walked backwards."""
+    return np.asarray(np.exp(np.mean(np.log(np.abs(s) + 1e-300), axis=0)))
+
+
+def _names(system: Motion, places: Sequence[Index], paths: Sequence[_Path], kept: Index) -> tuple[str, ...]:
+    owner = [path.states for path in paths for _ in path.states]
+    start = np.cumsum([0, *(len(states) for states in places)])
+    twin = np.concatenate([path.twin + first for path, first in zip(paths, start, strict=False)])
+    s = np.hstack([path.s for path in paths])
+    oscillates = np.mean(s.imag != 0, axis=0) > 0.5
+    names = name_roots(system, owner, np.hstack([path.share for path in paths]), twin, oscillates)
+    return unique_names([names[k] for k in kept], _size(s[:, kept]))
+
+
+def _meetings(paths: Sequence[_Path], label: Mapping[int, str]) -> tuple[Meeting, ...]:
+    found, first = [], 0
+    for path in paths:
+        for e in path.encounters:
+            names = tuple(sorted({label[first + k] for k in e.roots if first + k in label}))
+            found.append(Meeting(min(e.low, e.high), max(e.low, e.high), names, e.kind, e.s, e.distance))
+        first += len(path.states)
+    return tuple(sorted(found, key=lambda meeting: meeting.low))
+
+
+def _residual(problem: Problem, name: str, values: Float, s: Complex) -> float:
+    """Return the largest backward error of the characteristic polynomial at all points."""
+    column = values[:, None]
+    p = {**parameters_at(problem, problem.speeds[0]), name: column}
+    C_s = column if name == "C_s" else given_damping(problem)
+    polynomial = characteristic(p, **model_of(problem)).full(C_s)
+    return float(np.nanmax(backward_error(polynomial, s)))

@@ -1,0 +1,83 @@
+"""Isolation of all positive roots, against roots that are known."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from yawdesign.study.isolation import BLOCK, CELLS, RANGE, isolate
+
+ROUNDING = 1e-9  # a root on the edge of two intervals may be told to either
+
+
+def polynomial(real=(), pairs=(), factor=1.0):
+    """Return coefficients, lowest power first, from real roots and complex pairs."""
+    return np.atleast_1d(np.poly([*real, *pairs, *np.conj(pairs)])).real[::-1] * factor
+
+
+def intervals(coefficients):
+    found = isolate(np.asarray(coefficients, dtype=float).reshape(-1, 1))
+    order = np.argsort(found.low)
+    return found.low[order], found.high[order], found.undecided
+
+
+def assert_isolated(roots, coefficients):
+    low, high, undecided = intervals(coefficients)
+    roots = np.sort(np.asarray(roots))
+    assert not undecided.any()
+    assert len(low) == len(roots)
+    assert np.all((low <= roots * (1 + ROUNDING)) & (roots <= high * (1 + ROUNDING)))
+    assert np.all(high[:-1] <= low[1:])
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    st.lists(st.floats(-3, 3), max_size=5, unique_by=lambda x: round(x, 1)),
+    st.lists(st.floats(-3, 3), max_size=3),
+    st.lists(st.tuples(st.floats(-1, 1), st.floats(0.1, 3)), max_size=2),
+    st.sampled_from([1.0, -1e12, 1e-200]),
+)
+def test_every_positive_root_has_its_interval(positive, negative, pairs, factor):
+    assume(positive or negative or pairs)
+    positive, negative = [10.0**x for x in positive], [-(10.0**x) for x in negative]
+    pairs = [10.0**size * np.exp(1j * angle) for size, angle in pairs]
+    assert_isolated(positive, polynomial([*positive, *negative], pairs, factor))
+
+
+@pytest.mark.parametrize("gap", [1e-1, 1e-3, 1e-5, 1e-6])
+def test_close_roots(gap):
+    assert_isolated([2.0, 2.0 + gap, 5.0], polynomial([2.0, 2.0 + gap, 5.0, -1.0]))
+
+
+@pytest.mark.parametrize("height", [1e-1, 1e-3, 1e-5])
+def test_a_pair_that_just_misses_the_axis_is_no_root(height):
+    assert_isolated([5.0], polynomial([5.0], [2.0 + 1j * height]))
+
+
+def test_a_root_on_the_edge_of_two_cells():
+    for edge in _edges():
+        assert_isolated([edge], polynomial([edge, -3.0, -0.1]))
+        assert_isolated([edge], polynomial([edge], [2j, 0.3j + 0.1]))
+
+
+def _edges():
+    return np.geomspace(*RANGE, CELLS + 1)[:: CELLS // 8]
+
+
+def test_a_double_root_is_undecided():
+    low, _, undecided = intervals(polynomial([2.0, 2.0, 5.0]))
+    assert undecided.all() or len(low) in (1, 3)  # rounding may part the two, or lift them off the axis
+
+
+def test_roots_far_out_and_far_in():
+    assert_isolated([1e-7, 3e8], polynomial([1e-7, 3e8]))
+
+
+def test_many_polynomials_keep_apart():
+    n = BLOCK + 7
+    places = np.linspace(0.5, 3.0, n)
+    F = np.stack([polynomial([x, -1.0]) for x in places], axis=1)
+    found = isolate(F)
+    order = np.argsort(found.owner)
+    assert np.array_equal(found.owner[order], np.arange(n))
+    assert np.all((found.low[order] <= places) & (places <= found.high[order]))

@@ -1,0 +1,80 @@
+"""Critical speeds, against the eigenvalue problem that has all of them."""
+
+import numpy as np
+import pytest
+import scipy.linalg
+
+from yawdesign.stability.modes import core_eigenvalues, core_matrix
+from yawdesign.study.points import evaluate
+from yawdesign.study.question import Question
+from yawdesign.study.speeds import SEARCHED
+
+
+def all_critical_speeds(p, C_s, model):
+    """Return every speed at which the sum of two eigenvalues is zero and they lie on the imaginary axis.
+
+    The state matrix is A0 + A1/v, and its Kronecker sum with itself is singular exactly at such speeds.
+    """
+    slow, fast = (core_matrix(p | {"v": v}, C_s, **model) for v in (1.0, 2.0))
+    A1 = 2 * (slow - fast)
+    A0 = slow - A1
+    one = np.eye(len(A0))
+    sums = [np.kron(A, one) + np.kron(one, A) for A in (A0, A1)]
+    with np.errstate(all="ignore"):
+        inverse = scipy.linalg.eigvals(sums[0], -sums[1])
+        candidates = 1 / inverse.real[np.isfinite(inverse) & (np.abs(inverse.imag) < 1e-6 * np.abs(inverse))]
+    inside = np.sort(candidates[(candidates > SEARCHED[0]) & (candidates < SEARCHED[1])])
+    s = [core_eigenvalues(p | {"v": v}, C_s, **model) for v in inside]
+    on_axis = [np.min(np.abs(x.real) / np.maximum(1, np.abs(x))) < 1e-5 for x in s]
+    speeds = inside[np.array(on_axis, dtype=bool)]
+    return speeds[np.concatenate([[True], np.diff(speeds) > 1e-5 * speeds[1:]])] if len(speeds) else speeds
+
+
+def found(p, C_s, model):
+    answers = evaluate(Question("critical_speed", model["kind"], model["equations"], (300 / 3.6,)), p | {"C_s": C_s})
+    assert not answers.unverified.any()
+    speeds = answers.columns["critical_speed"][0]
+    return speeds[~np.isnan(speeds)], answers.columns
+
+
+def test_trailers_have_all_their_critical_speeds(random_bogies):
+    model, several = {"kind": "trailer", "equations": "reciprocal"}, 0
+    for k, (p, _) in enumerate(random_bogies(12, seed=8, spread=2.0)):
+        p.pop("v")
+        C_s = 10 ** (4 + k / 4)
+        speeds, _ = found(p, C_s, model)
+        assert speeds == pytest.approx(all_critical_speeds(p, C_s, model), rel=1e-6)
+        several += len(speeds)
+    assert several > 5
+
+
+def test_a_power_bogie(table1):
+    model = {"kind": "power", "equations": "as-printed"}
+    p = {name: x for name, x in table1.items() if name != "v"}
+    speeds, columns = found(p, 1e5, model)
+    assert speeds == pytest.approx(all_critical_speeds(p, 1e5, model), rel=1e-6)
+    assert columns["unstable_roots"][0].tolist() == [0, 2]
+
+
+def test_the_critical_speed_at_the_critical_damping_is_the_speed(table1):
+    model = {"kind": "power", "equations": "as-printed"}
+    p = {name: x for name, x in table1.items() if name != "v"}
+    speeds, columns = found(p, 90702.8897786979, model)
+    assert speeds == pytest.approx([300 / 3.6], rel=1e-8)
+    assert columns["omega"][0] == pytest.approx([23.15473658], rel=1e-7)
+
+
+def test_the_range_of_the_problem_is_searched(table1):
+    asked = Question("critical_speed", "power", "as-printed", (200 / 3.6, 290 / 3.6))
+    p = {name: x for name, x in table1.items() if name != "v"} | {"C_s": np.array([1e4, 90702.0])}
+    assert evaluate(asked, p).columns["count"].tolist() == [1, 0]
+
+
+def test_several_changes_in_one_cell(table1, monkeypatch):
+    model = {"kind": "power", "equations": "as-printed"}
+    p = {name: x for name, x in table1.items() if name != "v"} | {"lambda": 0.4}
+    many, _ = found(p, 3e4, model)
+    monkeypatch.setattr("yawdesign.study.speeds.SPEEDS", 3)
+    few, columns = found(p, 3e4, model)
+    assert set(np.round(few, 6)) <= set(np.round(many, 6))
+    assert columns["unstable_roots"][0, -1] == columns["unstable_roots"][0][~np.isnan(columns["unstable_roots"][0])][-1]
