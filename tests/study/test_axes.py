@@ -179,7 +179,7 @@ def test_what_a_question_needs():
 
 
 def test_the_range_of_critical_speeds():
-    assert asked(of="critical_speed", lambda_=[0.1, 0.2]).task.question.speeds == pytest.approx([20 / 3.6, 600 / 3.6])
+    assert asked(of="critical_speed", lambda_=[0.1, 0.2]).task.question.speeds == pytest.approx([10 / 3.6, 600 / 3.6])
     between = yd.table1().replace(speed=yd.SpeedRange(min=60, max=90))
     speeds = asked(of="critical_speed", problem=between, lambda_=[0.1, 0.2]).task.question.speeds
     assert (speeds[0], speeds[-1]) == (60, 90)

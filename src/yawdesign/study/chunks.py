@@ -1,5 +1,6 @@
 """Many points in chunks, in this process or by an executor; what is finished stays when something breaks."""
 
+import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
@@ -10,12 +11,13 @@ from typing import Any
 
 from yawdesign.problem import ProblemError
 from yawdesign.study.axes import applied, block
-from yawdesign.study.points import evaluate
+from yawdesign.study.points import LENGTH, VERDICTS, evaluate
 from yawdesign.study.question import Answers
 from yawdesign.study.request import Request, Task
 from yawdesign.study.store import Store
 
-LARGEST, SMALLEST = 16_384, 64  # points of a chunk
+HERE = VERDICTS * (os.cpu_count() or 1)  # points of a chunk in this process, whose threads share them
+LARGEST, SMALLEST = LENGTH, 64  # points of a chunk for an executor
 PARTS = 64  # into which a grid is cut for an executor, so that all workers end at about the same time
 IN_FLIGHT = 256  # chunks that are handed over at a time
 CONNECT = 20  # seconds to wait for a dask scheduler
@@ -23,9 +25,9 @@ CONNECT = 20  # seconds to wait for a dask scheduler
 Blocks = Iterable[tuple[int, int]]
 
 
-def answer(task: Task, point: Mapping[str, Any]) -> Answers:
-    """Return the answers at some points; this is what a worker runs."""
-    return evaluate(task.question, applied(task.parameters, point, task.hold))
+def answer(task: Task, point: Mapping[str, Any], threads: int | None = 1) -> Answers:
+    """Return the answers at some points; this is what a worker runs, in one thread: there are other workers."""
+    return evaluate(task.question, applied(task.parameters, point, task.hold), threads=threads)
 
 
 def fill(
@@ -53,7 +55,7 @@ def fill(
     """
     try:
         if executor is None:
-            return _fill_here(store, asked, store.missing(chunk or LARGEST), done)
+            return _fill_here(store, asked, store.missing(chunk or HERE), done)
         chunk = chunk or min(max(asked.size // PARTS, SMALLEST), LARGEST)
         return _Handover(store, asked, as_executor(executor), done).run(store.missing(chunk))
     except KeyboardInterrupt as error:
@@ -64,7 +66,7 @@ def _fill_here(store: Store, asked: Request, blocks: Blocks, done: Callable[[], 
     failed: BaseException | None = None
     for start, stop in list(blocks):
         try:
-            store.put(start, answer(asked.task, block(asked.axes, start, stop)))
+            store.put(start, answer(asked.task, block(asked.axes, start, stop), None))
         except Exception as error:  # noqa: BLE001 - the other chunks are computed, and this one is reported
             failed = failed or error
         done()

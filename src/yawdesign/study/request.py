@@ -11,10 +11,11 @@ import numpy as np
 from yawdesign.problem import PARAMETERS, Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.parameters import MOTOR_KEYS, NO_MOTOR, parameter_keys
-from yawdesign.problem.running import SPEED, SpeedRange
+from yawdesign.problem.running import SpeedRange
 from yawdesign.problem.table import as_choice
 from yawdesign.study.axes import CREEP, DERIVED, ROWS, Axis, applied, read_axis, shape
 from yawdesign.study.question import NEEDS_DAMPING, QUANTITIES, Question
+from yawdesign.study.speeds import SEARCHED
 
 MOST_AXES = 3
 HOLDS = ("C_m", "xi_m")
@@ -102,7 +103,7 @@ def _question(problem: Problem, quantity: str) -> Question:
     question = Question.about(problem, quantity)
     speeds = question.speeds
     if quantity == "critical_speed" and len(speeds) == 1:
-        speeds = SPEED.usual
+        speeds = SEARCHED
     return replace(question, speeds=tuple(map(float, speeds)))
 
 

@@ -99,7 +99,7 @@ def sweep(
     >>> import yawdesign as yd
     >>> result = yd.sweep(yd.table1(equations="as-printed"), of="critical", f_m=[2.0, 3.27])
     >>> [[round(x / 1000) for x in values] for values in result.values]
-    [[281], [29, 209, 358]]
+    [[281], [12, 204, 358]]
     """
     return swept(problem, of, axes.items(), hold=hold, executor=executor, resume=resume, progress=progress, chunk=chunk)
 
