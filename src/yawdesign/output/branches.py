@@ -67,23 +67,25 @@ def curves(x: Float, columns: list[Column], bottom: float, top: float) -> dict[s
         for k, j in pairs:
             out[left.kinds[k]].append([(x_1, left.values[k]), (x_2, right.values[j])])
         middle = (x_1 + x_2) / 2
-        for place, column, taken in ((x_1, left, {k for k, _ in pairs}), (x_2, right, {j for _, j in pairs})):
-            for kind, end in _ends(column, [k for k in range(column.values.size) if k not in taken], bottom, top):
-                out[kind].append([(place, end[0]), (middle, end[1])])
+        sides = ((x_1, left, right, {k for k, _ in pairs}), (x_2, right, left, {j for _, j in pairs}))
+        for place, column, other, taken in sides:
+            for k, end in _ends(column, other, taken, bottom, top):
+                out[column.kinds[k]].append([(place, column.values[k]), (middle, end)])
     return out
 
 
-def _ends(column: Column, loose: list[int], bottom: float, top: float) -> Iterator[tuple[str, tuple[float, float]]]:
-    """Yield the kind of the values that nothing continues, with where they go: to their neighbour or out of sight."""
-    kinds = column.kinds
-    folded = {k for k in loose if k + 1 in loose and kinds[k] != kinds[k + 1]}
+def _ends(column: Column, other: Column, taken: set[int], bottom: float, top: float) -> Iterator[tuple[int, float]]:
+    """Yield the values that the other place does not continue, with where they go: to a neighbour or out of sight."""
+    kinds, loose = column.kinds, [k for k in range(column.values.size) if k not in taken]
+    folded = [k for k in loose if k + 1 in loose and kinds[k] != kinds[k + 1]]
     for k in loose:
-        value = float(column.values[k])
         if k in folded or k - 1 in folded:
-            other = float(column.values[k + 1 if k in folded else k - 1])
-            yield kinds[k], (value, float(np.sqrt(value * other)))
-        elif k == 0:
-            yield kinds[k], (value, bottom)
+            pair = column.values[[k, k + 1] if k in folded else [k - 1, k]]
+            yield k, float(np.sqrt(pair.prod()))
+        elif k == 0 and other.roots[0] == column.roots[1]:
+            yield k, bottom
+        elif k == column.values.size - 1 and other.roots[other.values.size] == column.roots[k]:
+            yield k, top
 
 
 def stable_areas(x: Float, columns: list[Column], bottom: float, top: float) -> Iterator[Points]:

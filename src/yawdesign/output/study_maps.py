@@ -134,6 +134,15 @@ def _always_and_never(sweep: Sweep, values: Float, none: Any) -> tuple[Any, Any]
     return np.zeros_like(none), none & (sweep.columns["status"] == "stable for none")
 
 
+def _without_damper(sweep: Sweep) -> Float:
+    """Return 1 where the bogie is stable, without any yaw damping where that is asked for, else 0."""
+    if sweep.quantity in ("C_sl", "design"):
+        return np.asarray(sweep.columns["C_sl"] == 0, dtype=float)
+    if sweep.quantity == "critical":
+        return np.asarray(sweep.columns["unstable_roots"][..., 0] == 0, dtype=float)
+    return sweep.good.astype(float)
+
+
 def _always(sweep: Sweep) -> str:
     return "stable at every speed" if sweep.quantity == "critical_speed" else r"stable for every $C_\mathrm{s}$"
 
@@ -152,8 +161,14 @@ def _boundary(sweep: Sweep, ax: "Axes", across: str, x: Float, y: Float, turned:
         lines = curves(axis_values(axis), columns_of(sweep.boundary, to_unit(1.0, "kN·s/m")), *ends)
         draw_lines(ax, lines, swap=across == "C_s")
         return [Line2D([], [], color=COLOURS[kind], label=ON_MAP[kind]) for kind, found in lines.items() if found]
-    inside = sweep.main if sweep.quantity in ("decay_rate", "damping_ratio") else sweep.good.astype(float) - 0.5
+    inside = sweep.main if sweep.quantity in ("decay_rate", "damping_ratio") else _without_damper(sweep) - 0.5
     if min(inside.shape) < 2 or not (np.nanmin(inside) < 0 < np.nanmax(inside)):
         return []
     ax.contour(x, y, _upright(inside, turned), levels=[0], colors="black", linewidths=1.5)
-    return [Line2D([], [], color="black", label="boundary of stability")]
+    return [Line2D([], [], color="black", label=_line(sweep))]
+
+
+def _line(sweep: Sweep) -> str:
+    return (
+        "stable without a yaw damper" if sweep.quantity in ("C_sl", "design", "critical") else "boundary of stability"
+    )

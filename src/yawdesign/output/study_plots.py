@@ -117,7 +117,7 @@ def scale_axis(set_scale: Any, axis: Axis) -> None:
 
 def legend_below(ax: "Axes", **options: Any) -> None:
     """Explain a picture that leaves no room inside."""
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, fontsize="small", frameon=False, **options)
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, fontsize="small", frameon=False, **options)
 
 
 def columns_of(sweep: Sweep, factor: float) -> list[Column]:
@@ -153,7 +153,7 @@ def _branches(sweep: Sweep, ax: "Axes", x: Float, *, legend: bool = True) -> Non
     if areas:
         handles.append(Patch(color=STABLE, label="stable"))
     if legend:
-        ax.legend(handles=handles, loc="best", fontsize="small")
+        legend_below(ax, handles=handles)
 
 
 def _limits(sweep: Sweep, ax: "Axes") -> tuple[float, float]:
@@ -183,9 +183,15 @@ def _least(sweep: Sweep, ax: "Axes", x: Float) -> None:
         top = 1.15 * np.nanmax(y, initial=1.0)
         ax.fill_between(x, y, top, color=STABLE, label="stable above the curve", linewidth=0)
         ax.set_ylim(0, top)
-    ax.plot(x, np.maximum(y, ax.get_ylim()[0]), color="black", linewidth=2.2, label=r"$C_\mathrm{sl}$", zorder=2)
+    ax.plot(
+        x,
+        np.maximum(y, ax.get_ylim()[0]),
+        color="black",
+        linewidth=2.2,
+        label=r"$C_\mathrm{sl}$ of the interval chosen",
+    )
     _mark_none(ax, x, ~np.isfinite(y))
-    ax.legend(loc="best", fontsize="small")
+    legend_below(ax)
 
 
 def _mark_none(ax: "Axes", x: Float, none: NDArray[np.bool_]) -> None:
@@ -208,7 +214,7 @@ def _design(sweep: Sweep, ax: "Axes", x: Float) -> None:
         ax.fill_between(
             x, 0, 1, where=~there, transform=ax.get_xaxis_transform(), color=UNKNOWN, label="no design", linewidth=0
         )
-    ax.legend(loc="best", fontsize="small")
+    legend_below(ax)
 
 
 def _margin(sweep: Sweep, ax: "Axes", x: Float) -> None:
@@ -224,7 +230,7 @@ def _margin(sweep: Sweep, ax: "Axes", x: Float) -> None:
     else:
         ax.plot(x, y * to_unit(1.0, shown_unit(sweep)), color="black", linewidth=1.8)
         ax.axhline(0, color="black", linewidth=0.8)
-    ax.legend(loc="best", fontsize="small")
+    legend_below(ax)
 
 
 def _stretches(x: Float, y: Float, geometric: bool) -> Iterator[tuple[float, float, bool]]:
