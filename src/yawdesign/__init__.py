@@ -42,6 +42,8 @@ if TYPE_CHECKING:
     from yawdesign.response.synthesis import SpectrumCheck, spectrum_check
     from yawdesign.response.track import Band, Harmonic, RandomTrack, Sinusoid
     from yawdesign.stability.verdict import Stability, stability
+    from yawdesign.study.result import Sweep
+    from yawdesign.study.sweep import IncompleteSweepError, sweep
 
 __version__ = "0.1.0"
 
@@ -64,6 +66,8 @@ _HOMES = {
     "yawdesign.design.forward": ("ForwardDesign", "design"),
     "yawdesign.design.functions": ("functions",),
     "yawdesign.design.optimise": ("Optimum", "optimise"),
+    "yawdesign.study.result": ("Sweep",),
+    "yawdesign.study.sweep": ("IncompleteSweepError", "sweep"),
     "yawdesign.design.state_space": ("StateSpaceModel", "state_space"),
     "yawdesign.output.export.write": ("Export", "export"),
     "yawdesign.output.fmi.archive": ("Fmu", "write_fmu"),
@@ -86,6 +90,7 @@ __all__ = [
     "ForwardDesign",
     "FrequencyResponse",
     "Harmonic",
+    "IncompleteSweepError",
     "MeasuredTrack",
     "Modes",
     "Optimum",
@@ -100,6 +105,7 @@ __all__ = [
     "Stability",
     "StateSpaceModel",
     "StationaryResponse",
+    "Sweep",
     "Variable",
     "animate",
     "damper_component",
@@ -121,6 +127,7 @@ __all__ = [
     "stability",
     "state_space",
     "stationary_response",
+    "sweep",
     "table1",
     "write_fmu",
 ]

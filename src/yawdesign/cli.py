@@ -1,7 +1,9 @@
 """The command line: parses, calls, prints and sets the exit code."""
 
 import json
+import os
 import sys
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
@@ -113,6 +115,73 @@ def optimise(
 
 
 app.command("optimize", hidden=True)(optimise)
+
+
+@app.command()
+def sweep(
+    file: ProblemFile,
+    over: Annotated[
+        list[str], typer.Option(metavar="NAME=LOW:HIGH:N[:log]", help="An axis; one to three.", show_default=False)
+    ],
+    of: Annotated[
+        str,
+        typer.Option(help="stable, decay_rate, damping_ratio, margin, critical, C_sl, design or critical_speed."),
+    ] = "C_sl",
+    hold: Annotated[str | None, typer.Option(help="C_m (default) or xi_m: what stays when f_m changes.")] = None,
+    csv: Annotated[str | None, typer.Option(help="Write a table.")] = None,
+    npz: Annotated[str | None, typer.Option(help="Write arrays for NumPy.")] = None,
+    plot: Annotated[str | None, typer.Option(help="Draw a picture: .png, .pdf or .svg.")] = None,
+    jobs: Annotated[int, typer.Option(min=1, help="Number of processes.")] = 1,
+    dask: Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")] = None,
+    resume: Annotated[str | None, typer.Option(help="File that keeps unfinished work, and goes on from it.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Answer one question at every point of a grid of parameters: curves, maps, stability charts."""
+    with _mistakes_shown():
+        problem = _read(file)
+        from yawdesign.output.study_files import Outputs
+        from yawdesign.study.chunks import workers
+        from yawdesign.study.sweep import IncompleteSweepError, swept
+
+        outputs = Outputs.checked(file, over, csv=csv, npz=npz, plot=plot, resume=resume)
+        axes = [(name, values) for name, _, values in (text.partition("=") for text in over)]
+        try:
+            with _progress() as progress, workers(jobs, dask) as executor, _warnings_told():
+                work = {"executor": executor, "resume": resume, "progress": progress}
+                result = swept(problem, of, axes, hold=hold, **work)
+        except IncompleteSweepError as error:
+            _tell(outputs.rescued(error.result, error.reason))
+            raise typer.Exit(INTERRUPTED if error.interrupted else SOLVER_FAILED) from None
+        try:
+            outputs.write(result)
+            _show_sweep(result, as_json)
+        except OSError as error:
+            _tell(outputs.rescued(result, f"{error.filename or 'the answer'} could not be written: {error.strerror}"))
+            raise typer.Exit(BAD_INPUT) from None
+    raise typer.Exit(_code(not result.unverified.any(), bool(result.good.any())))
+
+
+def _show_sweep(result: Any, as_json: bool) -> None:
+    from yawdesign.output import study_tables, tables
+
+    try:
+        if as_json:
+            typer.echo(json.dumps(result.to_dict(), allow_nan=False))
+        else:
+            tables.show(study_tables.sweep_tables(result))
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what cannot be written is not tried again at the end
+        raise
+
+
+@contextmanager
+def _warnings_told() -> Iterator[None]:
+    """Show warnings as messages."""
+    with warnings.catch_warnings():
+        warnings.showwarning = lambda message, *_: _tell(f"warning: {message}")
+        warnings.simplefilter("always", RuntimeWarning)
+        yield
 
 
 @app.command()

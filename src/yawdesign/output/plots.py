@@ -10,6 +10,9 @@ if TYPE_CHECKING:
 
 # What draws which kind of result, as module and function.
 DRAWN_BY: dict[str, tuple[str, str]] = {
+    "Sweep": ("yawdesign.output.study_plots", "draw"),
+    "ForwardDesign": ("yawdesign.output.design_plots", "draw_design"),
+    "Optimum": ("yawdesign.output.design_plots", "draw_optimum"),
     "DamperComponent": ("yawdesign.output.response_plots", "damper_component"),
     "FrequencyResponse": ("yawdesign.output.response_plots", "frequency_response"),
     "Simulation": ("yawdesign.output.response_plots", "simulation"),

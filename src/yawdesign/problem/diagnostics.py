@@ -8,7 +8,10 @@ from difflib import get_close_matches
 from typing import Literal, Self
 
 _WIDEST_LINE = 160  # characters of a source line that a message repeats
-_SYNONYMS = {"conicity": "lambda", "v": "speed", "velocity": "speed", "axle_load": "W", "variable": "variables"}
+_SYNONYMS = {
+    **{"conicity": "lambda", "v": "speed", "velocity": "speed", "axle_load": "W", "variable": "variables"},
+    **{"speed": "v", "frequency": "f_m"},  # among the axes of a sweep
+}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,9 +15,9 @@ QUANTITIES = {
     "stable": "-",
     "decay_rate": "1/s",
     "damping_ratio": "-",
-    "critical": "N*s/m",
-    "C_sl": "N*s/m",
-    "design": "N*s/m",
+    "critical": "N·s/m",
+    "C_sl": "N·s/m",
+    "design": "N·s/m",
     "critical_speed": "m/s",
 }
 # What must be known at every point, beside the parameters.

@@ -1,0 +1,117 @@
+"""Pictures of a forward design and of an optimum."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from yawdesign.output.plots import new_axes
+from yawdesign.output.study_plots import COLOURS, STABLE, UNSTABLE, legend_below
+from yawdesign.output.tables import margin
+from yawdesign.problem import PARAMETERS, ProblemError, format_quantity, to_unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from yawdesign.design.forward import ForwardDesign
+    from yawdesign.design.optimise import Optimum
+
+DAMPING = to_unit(1.0, "kN·s/m")
+
+
+def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
+    """Draw the stable intervals of the yaw damping, its critical values, the curve's limit and the choice.
+
+    Parameters
+    ----------
+    result : ForwardDesign
+        Of `yawdesign.design`.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw.
+    """
+    ax = new_axes(ax)
+    low, high = _ends(result)
+    many = len({x.speed for x in result.critical}) > 1
+    ax.axvspan(low, high, color=UNSTABLE, linewidth=0, label="unstable at some speed" if many else "unstable")
+    for k, (start, stop) in enumerate(result.stable_intervals):
+        text = "_" if k else "stable at every speed" if many else "stable"
+        ax.axvspan(max(start * DAMPING, low), min(stop * DAMPING, high), color=STABLE, linewidth=0, label=text)
+    _critical(result, ax)
+    if result.C_su is not None and result.C_su > 0:
+        text = rf"$C_\mathrm{{su}}$ = {_damping(result.C_su)}, limit of the curve"
+        ax.axvline(result.C_su * DAMPING, color="black", linestyle="dashed", label=text)
+    if result.C_s is not None:
+        text = rf"$C_\mathrm{{s}}$ = {_damping(result.C_s)}, golden section"
+        ax.axvline(result.C_s * DAMPING, color="#1f4e9e", linewidth=2.5, label=text)
+    ax.set(xscale="log", xlim=(low, high), xlabel=r"damping of the pair of yaw dampers $C_\mathrm{s}$ [kN·s/m]")
+    ax.set_title(f"Forward design: {result.status}", loc="left", fontsize="medium")
+    legend_below(ax)
+    return ax
+
+
+def _damping(value: float) -> str:
+    return format_quantity(value, "kN·s/m", 4)
+
+
+def _ends(result: "ForwardDesign") -> tuple[float, float]:
+    marks = [x.C_s for x in result.critical] + [x for x in (result.C_su, result.C_s) if x is not None and x > 0]
+    marks = [x * DAMPING for x in marks] or [1000.0]
+    return min(marks) / 4, max(marks) * 4
+
+
+def _critical(result: "ForwardDesign", ax: "Axes") -> None:
+    """Draw the critical values over their speed, or as lines with their frequency where there is one speed."""
+    speeds = {x.speed for x in result.critical}
+    if len(speeds) > 1:
+        for kind in {x.becomes for x in result.critical}:
+            points = [(x.C_s * DAMPING, to_unit(x.speed, "km/h")) for x in result.critical if x.becomes == kind]
+            label = f"critical value, above it {'still unstable' if kind == 'neither' else kind}"
+            ax.plot(*zip(*points, strict=True), "o", color=COLOURS[kind], label=label)
+        ax.set_ylabel("running speed $v$ [km/h]")
+        return
+    ax.set_yticks([])
+    for x in result.critical:
+        ax.axvline(x.C_s * DAMPING, color=COLOURS[x.becomes], linewidth=1.5)
+        text = f" {_damping(x.C_s)}\n at {x.omega / (2 * np.pi):.3g} Hz"
+        ax.annotate(text, (x.C_s * DAMPING, 0.02), xycoords=ax.get_xaxis_transform(), fontsize="small")
+
+
+def draw_optimum(result: "Optimum", ax: "Axes | None" = None) -> "Axes":
+    """Draw where each design variable lies between its bounds, before and at the optimum.
+
+    Parameters
+    ----------
+    result : Optimum
+        Of `yawdesign.optimise`.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw.
+    """
+    if result.margin is None:
+        raise ProblemError(f"there is nothing to draw: {result.status}: {result.message}")
+    ax = new_axes(ax)
+    names = list(result.bounds)
+    for row, name in enumerate(names):
+        _variable(ax, row, name, result)
+    ax.set_yticks(range(len(names)), [f"${PARAMETERS[name].symbol}$" for name in names])
+    ax.set(xlim=(-3, 103), ylim=(len(names) - 0.4, -0.6), xlabel="place between the bounds, on a logarithmic scale [%]")
+    before, after = margin(result.margin_before, result.objective), margin(result.margin, result.objective)
+    ax.set_title(f"Least {result.objective.replace('_', ' ')}: {before} → {after}", loc="left", fontsize="medium")
+    legend_below(ax)
+    return ax
+
+
+def _variable(ax: "Axes", row: int, name: str, result: "Optimum") -> None:
+    bound, before, unit = result.bounds[name], result.before[name], PARAMETERS[name].unit
+    place = 100 * bound.position
+    label: dict[str, Any] = {"label": "optimum"} if row == 0 else {}
+    ax.plot([0, 100], [row, row], color="#bbbbbb", linewidth=6, solid_capstyle="butt", zorder=0)
+    ax.plot([place], [row], "o", color="#1f4e9e", markersize=9, **label)
+    for x, value, align in ((0, bound.min, "left"), (100, bound.max, "right")):
+        ax.annotate(
+            format_quantity(value, unit, 4), (x, row), (0, -14), textcoords="offset points", ha=align, size="small"
+        )
+    text = format_quantity(bound.value, unit, 4)
+    ax.annotate(text, (place, row), (0, 9), textcoords="offset points", ha="center", color="#1f4e9e")
+    if before is not None and before > 0 and bound.min > 0:
+        was = 100 * np.log(before / bound.min) / np.log(bound.max / bound.min)
+        label = {"label": "before"} if row == 0 else {}
+        ax.plot([was], [row], "o", color="black", markerfacecolor="white", markersize=9, zorder=1, **label)

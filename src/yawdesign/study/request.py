@@ -1,0 +1,219 @@
+"""What a sweep is asked for, checked: the quantity, the axes and what they hold, with all mistakes at once."""
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from math import prod
+from typing import Any
+
+import numpy as np
+
+from yawdesign.problem import PARAMETERS, Problem, ProblemError
+from yawdesign.problem.diagnostics import Mistakes, unknown_key
+from yawdesign.problem.parameters import MOTOR_KEYS, NO_MOTOR, parameter_keys
+from yawdesign.problem.running import SpeedRange
+from yawdesign.problem.table import as_choice
+from yawdesign.study.axes import CREEP, DERIVED, ROWS, Axis, applied, read_axis, shape
+from yawdesign.study.question import NEEDS_DAMPING, QUANTITIES, Question
+from yawdesign.study.speeds import SEARCHED
+
+MOST_AXES = 3
+HOLDS = ("C_m", "xi_m")
+# Axes that set the same parameters.
+EXCLUDE = (("f_m", "K_m"), ("xi_m", "C_m"), *(("creep_factor", name) for name in CREEP))
+# What a point of the result takes, working copies included [bytes].
+BYTES = {"stable": 16, "decay_rate": 32, "damping_ratio": 32, "C_sl": 160, "design": 220}
+BYTES_OF_SETS = 240
+SHARE_OF_MEMORY = 0.5
+COMMON_MEMORY = 8 * 2**30  # where the system does not tell
+
+
+@dataclass(frozen=True)
+class Task:
+    """What a worker needs to know beside the values of the axes; a few kilobytes.
+
+    Parameters
+    ----------
+    question : Question
+        What is asked at every point.
+    parameters : mapping
+        Of the problem, in SI.
+    hold : {"C_m", "xi_m"}
+        As in `yawdesign.study.axes.applied`.
+    """
+
+    question: Question
+    parameters: Mapping[str, float]
+    hold: str
+
+
+@dataclass(frozen=True)
+class Request:
+    """A sweep that can be computed.
+
+    Parameters
+    ----------
+    problem : Problem
+        Where the parameters that are no axes come from.
+    of : str
+        What was asked for.
+    task : Task
+        The same for a worker.
+    axes : tuple of Axis
+        One to three.
+    """
+
+    problem: Problem
+    of: str
+    task: Task
+    axes: tuple[Axis, ...]
+
+    @property
+    def size(self) -> int:
+        """Number of points."""
+        return prod(shape(self.axes))
+
+
+def request(problem: Problem, of: str, axes: Iterable[tuple[str, Any]], hold: str | None) -> Request:
+    """Return a checked request; arguments as in `yawdesign.sweep`, the axes as pairs of name and values."""
+    mistakes = Mistakes()
+    pairs = [("lambda" if name == "lambda_" else name, values) for name, values in axes]
+    names = [name for name, _ in pairs]
+    quantity = ""
+    with mistakes.under("of"):
+        quantity = _quantity(problem, of)
+    mistakes.found += _wrong_number(names).found
+    read = _read(problem, pairs, mistakes)
+    with mistakes.under("hold"):
+        _check_hold(problem, hold, names)
+    mistakes.found += _contradictions(names).found + _unanswerable(problem, quantity, names).found
+    mistakes.report()
+    task = Task(_question(problem, quantity), _parameters(problem, quantity), hold or "C_m")
+    _check_derived(task, read)
+    _check_memory(quantity, read)
+    return Request(problem, of, task, read)
+
+
+def _quantity(problem: Problem, of: str) -> str:
+    as_choice(of, (*QUANTITIES, "margin"))
+    return problem.design.objective if of == "margin" else of
+
+
+def _question(problem: Problem, quantity: str) -> Question:
+    question = Question.about(problem, quantity)
+    speeds = question.speeds
+    if quantity == "critical_speed" and len(speeds) == 1:
+        speeds = SEARCHED
+    return replace(question, speeds=tuple(map(float, speeds)))
+
+
+def _parameters(problem: Problem, quantity: str) -> dict[str, float]:
+    p = {name: float(x) for name, x in problem.bogie.parameters().items()}
+    return p if quantity in NEEDS_DAMPING else {name: x for name, x in p.items() if name != "C_s"}
+
+
+def _wrong_number(names: list[str]) -> Mistakes:
+    mistakes = Mistakes()
+    with mistakes.under("axes"):
+        if not names:
+            raise ProblemError("there is none: give one to three, such as v over 150 km/h:450 km/h:60")
+        if len(set(names)) > MOST_AXES:
+            raise ProblemError(f"{', '.join(names)} are {len(names)}: a sweep has at most {MOST_AXES}")
+    for name in sorted({name for name in names if names.count(name) > 1}):
+        with mistakes.under(name):
+            raise ProblemError("is given twice: an axis stands once")
+    return mistakes
+
+
+def _read(problem: Problem, pairs: list[tuple[str, Any]], mistakes: Mistakes) -> tuple[Axis, ...]:
+    found = []
+    for name, values in pairs:
+        with mistakes.under(name):
+            _check_name(problem, name)
+            found.append(read_axis(name, values))
+    return tuple(found)
+
+
+def _check_name(problem: Problem, name: str) -> None:
+    kind = problem.bogie.kind
+    if kind == "trailer" and (name in MOTOR_KEYS or (name in DERIVED and DERIVED[name].motor)):
+        raise ProblemError(NO_MOTOR)
+    allowed = [key for key in ROWS if key not in PARAMETERS or key in parameter_keys(kind)]
+    if name not in allowed:
+        raise ProblemError(f"{unknown_key(name, allowed)}; an axis is a parameter of the bogie, v, or one of "
+                           f"{', '.join(key for key in DERIVED if key in allowed)}")  # fmt: skip
+
+
+def _check_hold(problem: Problem, hold: str | None, names: list[str]) -> None:
+    if hold is None:
+        return
+    as_choice(hold, HOLDS)
+    if problem.bogie.kind == "trailer":
+        raise ProblemError(f"{hold} {NO_MOTOR.replace('remove it', 'do not hold it')}")
+    both = [name for name in ("xi_m", "C_m") if name in names]
+    if both:
+        raise ProblemError(f"{hold} cannot be held while {both[0]} is an axis")
+    if hold == "xi_m" and not problem.bogie.K_m:
+        raise ProblemError("xi_m is not defined: K_m is 0")
+
+
+def _contradictions(names: list[str]) -> Mistakes:
+    mistakes = Mistakes()
+    for one, other in EXCLUDE:
+        with mistakes.under(one):
+            if one in names and other in names:
+                raise ProblemError(f"contradicts the axis {other}: {one} sets {other}")
+    return mistakes
+
+
+def _unanswerable(problem: Problem, quantity: str, names: list[str]) -> Mistakes:
+    """Return what is missing for a quantity, or is an axis although the quantity is about it."""
+    mistakes = Mistakes()
+    with mistakes.under("C_s"):
+        if quantity and quantity not in NEEDS_DAMPING and "C_s" in names:
+            raise ProblemError(f"is no axis of {quantity}, which is about all C_s at once: ask for stable or a margin")
+        if quantity in NEEDS_DAMPING and "C_s" not in names and problem.bogie.C_s is None:
+            raise ProblemError(f"is missing: {quantity} needs it in the problem or as an axis")
+    with mistakes.under("v"):
+        if quantity == "critical_speed" and "v" in names:
+            raise ProblemError("is no axis of critical_speed, which is sought in the problem's range of speeds")
+    with mistakes.under("speed"):
+        if quantity == "critical" and "v" not in names and isinstance(problem.speed, SpeedRange):
+            raise ProblemError("is a range, and each speed has its own critical values: give one speed, or an axis v")
+    return mistakes
+
+
+def _check_derived(task: Task, axes: tuple[Axis, ...]) -> None:
+    """Check the parameters that axes compute; they are monotonic, so the corners of the grid say it."""
+    corners = np.meshgrid(*(axis.values[[0, -1]] for axis in axes), indexing="ij")
+    point = {axis.name: x.ravel() for axis, x in zip(axes, corners, strict=True)}
+    mistakes = Mistakes()
+    for name, x in applied(task.parameters, point, task.hold).items():
+        if name in PARAMETERS:
+            with mistakes.under(name):
+                for end in (np.min(x), np.max(x)):
+                    PARAMETERS[name].check(float(end))
+    mistakes.report()
+
+
+def memory() -> float:
+    """Return how much memory a result may take [bytes]."""
+    try:
+        whole = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, ValueError, OSError):
+        whole = COMMON_MEMORY
+    return SHARE_OF_MEMORY * whole
+
+
+def _check_memory(quantity: str, axes: tuple[Axis, ...]) -> None:
+    points, each = prod(shape(axes)), BYTES.get(quantity, BYTES_OF_SETS)
+    if points * each <= memory():
+        return
+    first = axes[0]
+    rows = int(memory() / (each * points / first.values.size))
+    parts = f"sweep {first.name} in parts of at most {rows} values" if rows > 1 else "sweep it in parts"
+    grid = " × ".join(f"{axis.values.size} {axis.name}" for axis in axes)
+    raise ProblemError(
+        f"{grid} = {points:.3g} points need about {points * each / 1e9:.3g} GB, more than the {memory() / 1e9:.3g} GB "
+        f"that a result may take here: use fewer values, or {parts} and write each to a file"
+    )

@@ -1,0 +1,243 @@
+"""What a sweep returns: values with their axes, units and origin."""
+
+import platform
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from importlib.metadata import version
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from yawdesign import __version__
+from yawdesign.problem import ProblemError
+from yawdesign.problem.diagnostics import unknown_key
+from yawdesign.problem.result import Result, plain
+from yawdesign.study.axes import Axis, shape
+from yawdesign.study.question import QUANTITIES, Array
+from yawdesign.study.request import Request
+from yawdesign.study.store import Store, save
+
+if TYPE_CHECKING:
+    import xarray
+
+Mask = NDArray[np.bool_]
+
+MAIN = {"design": "C_s"}  # the column that `values` shows, where it is not named after the quantity
+UNITS = {
+    **QUANTITIES,
+    **{"C_s": "N·s/m", "C_su": "N·s/m", "omega": "rad/s"},
+    **dict.fromkeys(("count", "unstable_roots", "status", "rotational_resistance"), "-"),
+}
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Sweep(Result):
+    """Answers on a grid.
+
+    Parameters
+    ----------
+    of, quantity : str
+        What was asked for, and the same with ``margin`` resolved.
+    unit : str
+        Unit of the values.
+    axes : tuple of Axis
+        Name, unit and values of each axis, in the order given.
+    columns : mapping name -> ndarray
+        All that was found. The first dimensions are the axes; a further one counts several values at a point, in
+        rising order and filled up with NaN.
+    finished, recomputed, unverified : ndarray of bool
+        Points that have an answer; that failed a check of the fast way and were computed the thorough way; where two
+        independent ways differ, so that there is no number (NaN, or not stable).
+    provenance : mapping
+        Problem, versions, number of points and time.
+    boundary : Sweep or None
+        All critical values over the other axis of a map over C_s, and over the axis of ``C_sl`` and ``design``.
+    request : Request
+        What was asked for, with the problem.
+    """
+
+    of: str
+    quantity: str
+    unit: str
+    axes: tuple[Axis, ...]
+    columns: Mapping[str, NDArray[Any]]
+    finished: Mask
+    recomputed: Mask
+    unverified: Mask
+    provenance: Mapping[str, Any]
+    boundary: "Sweep | None"
+    request: Request
+
+    @property
+    def main(self) -> NDArray[Any]:
+        """The column that `values` shows."""
+        return self.columns[MAIN.get(self.quantity, self.quantity)]
+
+    @property
+    def values(self) -> Array:
+        """The answers, one dimension for each axis; of several values at a point a tuple."""
+        several = self.main.ndim > len(self.axes)
+        return _tuples(self.main) if several else self.main
+
+    @property
+    def known(self) -> Mask:
+        """Points that have an answer which was verified."""
+        return self.finished & ~self.unverified
+
+    @property
+    def good(self) -> Mask:
+        """Points that are stable; where no C_s is given, points that some C_s makes stable (`design`: has a design)."""
+        if "unstable_roots" in self.columns:
+            good: Mask = np.any(self.columns["unstable_roots"] == 0, axis=-1)
+        elif self.quantity in ("C_sl", "design"):
+            good = np.isfinite(self.main)
+        else:
+            good = np.asarray(self.main > 0)
+        return self.known & good
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data in SI that JSON can hold, nested by axis in the order given; None where is no answer."""
+        columns = {name: self._nested(x) for name, x in self.columns.items() if x is not self.main}
+        return {
+            **{"of": self.of, "quantity": self.quantity, "unit": self.unit, "axes": plain(self.axes)},
+            **{"values": self._nested(self.main), "columns": {**columns, "checked": self.known.tolist()}},
+            "units": {name: UNITS[name] for name in self.columns},
+            "boundary": self.boundary.to_dict() if self.boundary else None,
+            "provenance": plain(self.provenance),
+        }
+
+    def _nested(self, column: Array) -> Any:
+        several = column.ndim > len(self.axes)
+        flat = column.reshape(self.known.size, *column.shape[len(self.axes) :])
+        rows = [_row(x) for x in flat] if several else plain(flat)
+        out = np.empty(self.known.size, dtype=object)
+        for k, known in enumerate(self.known.ravel()):
+            out[k] = rows[k] if known else None
+        return out.reshape(self.known.shape).tolist()
+
+    def at(self, **place: float) -> "Sweep":
+        """Return the sweep with one axis less, at the value nearest to the one given.
+
+        Parameters
+        ----------
+        **place
+            Name of an axis and a value in SI.
+        """
+        ((name, value),) = place.items()
+        names = ["lambda_" if axis.name == "lambda" else axis.name for axis in self.axes]
+        if name not in names:
+            raise ProblemError(f"{name} {unknown_key(name, names)}; the axes are {', '.join(names)}")
+        k = names.index(name)
+        nearest = int(np.argmin(np.abs(self.axes[k].values - value)))
+        masks = {n: np.take(getattr(self, n), nearest, axis=k) for n in ("finished", "recomputed", "unverified")}
+        columns = {n: np.take(x, nearest, axis=k) for n, x in self.columns.items()}
+        axes = (*self.axes[:k], *self.axes[k + 1 :])
+        at = {**self.provenance.get("at", {}), self.axes[k].name: float(self.axes[k].values[nearest])}
+        return replace(
+            self, axes=axes, columns=columns, **masks, boundary=None, provenance={**self.provenance, "at": at}
+        )
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Return an `xarray.Dataset` with coordinates, units and provenance; it can be written as netCDF."""
+        from yawdesign.study.files import dataset
+
+        return dataset(self)
+
+    def to_csv(self, path: str | PathLike[str]) -> None:
+        """Write a table with one line for each point; lines with # before it tell where it comes from.
+
+        Parameters
+        ----------
+        path : path
+            Name of the file; it is replaced as a whole or not at all.
+        """
+        from yawdesign.study.files import write_csv
+
+        write_csv(self, Path(path))
+
+    def to_npz(self, path: str | PathLike[str]) -> None:
+        """Write arrays that `numpy.load` reads: ``values`` and all columns, ``axis_NAME``, masks, units, provenance.
+
+        Parameters
+        ----------
+        path : path
+            Name of the file; it is replaced as a whole or not at all.
+        """
+        from yawdesign.study.files import write_npz
+
+        write_npz(self, Path(path))
+
+    def keep(self, path: str | PathLike[str]) -> None:
+        """Write what is finished of an interrupted sweep, for ``resume=path``.
+
+        Parameters
+        ----------
+        path : path
+            Name of the file.
+        """
+        if self.finished.size != self.request.size:
+            raise ProblemError("this is a part of a sweep: keep the whole one")
+        store = Store(self.request.size)
+        for name in ("finished", "recomputed", "unverified"):
+            setattr(store, name, getattr(self, name).ravel())
+        several = len(self.axes)
+        store.columns = {n: x.reshape(store.size, *x.shape[several:]) for n, x in self.columns.items()}
+        save(Path(path), self.request, store)
+
+    def __repr__(self) -> str:
+        grid = " x ".join(f"{axis.name} ({axis.values.size})" for axis in self.axes)
+        counts = {name: int(getattr(self, name).sum()) for name in ("good", "recomputed", "unverified")}
+        unfinished = self.finished.size - int(self.finished.sum())
+        rows = {"points": self.finished.size, **counts} | ({"unfinished": unfinished} if unfinished else {})
+        lines = [f"  {name:<10}  {value}" for name, value in rows.items()]
+        return "\n".join([f"Sweep of {self.of} [{self.unit}] over {grid}", *lines])
+
+
+def _row(values: Array) -> list[Any]:
+    return plain(values[~np.isnan(values)]) if values.dtype.kind == "f" else plain(values)  # type: ignore[no-any-return]
+
+
+def _tuples(column: Array) -> Array:
+    out = np.empty(column.shape[:-1], dtype=object)
+    for place in np.ndindex(out.shape):
+        row = column[place]
+        out[place] = tuple(row[~np.isnan(row)].tolist())
+    return out
+
+
+def gathered(asked: Request, store: Store, seconds: float, boundary: Sweep | None = None) -> Sweep:
+    """Return the result of a sweep from what was stored."""
+    grid = shape(asked.axes)
+    quantity = asked.task.question.of
+    columns = {name: x.reshape(*grid, *x.shape[1:]) for name, x in store.columns.items()}
+    columns.setdefault(MAIN.get(quantity, quantity), np.full(grid, np.nan))
+    return Sweep(
+        of=asked.of,
+        quantity=quantity,
+        unit=QUANTITIES[quantity],
+        axes=asked.axes,
+        columns=columns,
+        finished=store.finished.reshape(grid),
+        recomputed=store.recomputed.reshape(grid),
+        unverified=store.unverified.reshape(grid),
+        provenance=_provenance(asked, store, seconds),
+        boundary=boundary,
+        request=asked,
+    )
+
+
+def _provenance(asked: Request, store: Store, seconds: float) -> dict[str, Any]:
+    versions = {"yawdesign": __version__, "python": platform.python_version()}
+    return {
+        "problem": asked.problem.to_dict(),
+        "hold": asked.task.hold,
+        "versions": versions | {name: version(name) for name in ("numpy", "casadi")},
+        "points": store.size,
+        **{name: int(getattr(store, name).sum()) for name in ("finished", "recomputed", "unverified")},
+        "seconds": round(seconds, 3),
+        "date": datetime.now(UTC).isoformat(timespec="seconds"),
+    }

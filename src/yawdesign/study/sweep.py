@@ -1,0 +1,210 @@
+"""Sweeps and maps: one question at every point of a grid of parameters."""
+
+import time
+import warnings
+from collections.abc import Callable, Iterable
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from yawdesign.problem import Problem, ProblemError
+from yawdesign.problem.running import SpeedRange
+from yawdesign.study.axes import Axis
+from yawdesign.study.chunks import as_executor, fill
+from yawdesign.study.request import Request, request
+from yawdesign.study.result import Sweep, gathered
+from yawdesign.study.store import Store, restore, save
+
+Progress = Callable[[str, float], None]
+Pairs = Iterable[tuple[str, Any]]
+
+SAVE_EVERY = 30.0  # [s] with a file to resume from
+MOST_DRAWN = 5_000  # points of a boundary; no picture shows more
+
+
+class IncompleteSweepError(RuntimeError):
+    """A sweep did not come to its end; what was finished is in ``result``, and its text says how to go on.
+
+    Parameters
+    ----------
+    reason : str
+        What happened.
+    remedy : str
+        What to do.
+    result : Sweep
+        With NaN where there is no answer yet.
+    interrupted : bool
+        Whether it was stopped from the keyboard.
+    """
+
+    def __init__(self, reason: str, remedy: str, result: Sweep, interrupted: bool) -> None:
+        super().__init__(f"{reason}. {remedy}")
+        self.reason = reason
+        self.result = result
+        self.interrupted = interrupted
+
+
+def sweep(
+    problem: Problem,
+    of: str = "C_sl",
+    *,
+    hold: str | None = None,
+    executor: Any = None,
+    resume: str | PathLike[str] | None = None,
+    progress: Progress = lambda text, part: None,
+    chunk: int | None = None,
+    **axes: Any,
+) -> Sweep:
+    """Answer one question at every point of a grid of one to three axes.
+
+    Parameters
+    ----------
+    problem : Problem
+        Where everything comes from that is no axis. An answer holds for all its speeds, unless ``v`` is an axis.
+    of : str
+        ``stable``, ``decay_rate`` [1/s], ``damping_ratio`` [-], ``margin`` (the problem's objective), ``critical``
+        (all critical values of C_s [N s/m]), ``C_sl`` (lower end of the interval the design lies in [N s/m]; 0 where
+        every C_s is stable), ``design`` (C_s by the golden section [N s/m]) or ``critical_speed`` (the speeds [m/s]
+        at which stability is gained or lost, with the C_s given).
+    hold : {"C_m", "xi_m"}, optional
+        What stays the same when the motors' frequency ``f_m`` changes: their damping C_m (default), or their damping
+        ratio xi_m.
+    executor : concurrent.futures.Executor or distributed.Client, optional
+        Who computes; by default this process.
+    resume : path, optional
+        File in which unfinished work is kept, and from which it is taken up again.
+    progress : callable, optional
+        Called with a text and the share that is done, 0 ... 1.
+    chunk : int, optional
+        Points that are computed at a time.
+    **axes
+        By name: any parameter of the bogie (``lambda_`` for the conicity), ``v`` [m/s], ``f_m`` [Hz], ``xi_m`` or
+        ``creep_factor`` (of f_11 and f_22). Values in rising order, numbers in SI or texts with a unit; or a text
+        ``"150 km/h:450 km/h:60"``, with ``:log`` behind it for equal ratios.
+
+    Returns
+    -------
+    Sweep
+        ``values`` has one dimension for each axis, in the order given.
+
+    Raises
+    ------
+    ProblemError
+        With all that is wrong with the axes.
+    IncompleteSweepError
+        If a worker died or Ctrl-C was pressed; it holds what was finished.
+
+    Examples
+    --------
+    >>> import yawdesign as yd
+    >>> result = yd.sweep(yd.table1(equations="as-printed"), of="critical", f_m=[2.0, 3.27])
+    >>> [[round(x / 1000) for x in values] for values in result.values]
+    [[281], [12, 204, 358]]
+    """
+    return swept(problem, of, axes.items(), hold=hold, executor=executor, resume=resume, progress=progress, chunk=chunk)
+
+
+def swept(
+    problem: Problem,
+    of: str,
+    axes: Pairs,
+    *,
+    hold: str | None = None,
+    executor: Any = None,
+    resume: str | PathLike[str] | None = None,
+    progress: Progress = lambda text, part: None,
+    chunk: int | None = None,
+) -> Sweep:
+    """Return what `sweep` returns; here the axes are pairs of name and values, in which a name may wrongly recur."""
+    begin = time.perf_counter()
+    asked = request(problem, of, axes, hold)
+    _check_work(executor, chunk)
+    kept = None if resume is None else _Kept(Path(resume), asked)
+    store = kept.store if kept else Store(asked.size)
+
+    def done() -> None:
+        progress(f"{store.finished.sum()} of {asked.size} points", float(store.finished.mean()))
+        if kept:
+            kept.save_at_times()
+
+    failed = fill(store, asked, executor, chunk, done)
+    if failed is not None:
+        result = gathered(asked, store, time.perf_counter() - begin)
+        stopped = isinstance(failed, KeyboardInterrupt)
+        raise IncompleteSweepError(_reason(store, failed), _remedy(kept), result, stopped) from failed
+    if kept:
+        kept.save()
+    boundary = _boundary(asked, executor)
+    return gathered(asked, store, time.perf_counter() - begin, boundary)
+
+
+def _check_work(executor: Any, chunk: int | None) -> None:
+    if executor is not None:
+        as_executor(executor)
+    if chunk is not None and (isinstance(chunk, bool) or not isinstance(chunk, int) or chunk < 1):
+        raise ProblemError(f"chunk: {chunk!r} is not a whole number above 0")
+
+
+class _Kept:
+    """A store with a file that keeps it; a file that cannot be written does not end the sweep."""
+
+    def __init__(self, path: Path, asked: Request) -> None:
+        if not path.absolute().parent.is_dir():
+            raise ProblemError(f"resume: there is no folder {path.parent}")
+        self.path, self.asked = path, asked
+        self.store = restore(path, asked)
+        self.last = time.monotonic()
+        self.trouble = ""
+
+    def save_at_times(self) -> None:
+        if time.monotonic() - self.last > SAVE_EVERY:
+            self.save()
+
+    def save(self) -> bool:
+        try:
+            save(self.path, self.asked, self.store)
+        except OSError as error:
+            text = f"{self.path} could not be written ({error.strerror}): make room; the sweep goes on and tries again"
+            if not self.trouble:
+                warnings.warn(text, RuntimeWarning, stacklevel=2)
+            self.trouble = text
+        else:
+            self.trouble = ""
+        self.last = time.monotonic()
+        return not self.trouble
+
+
+def _reason(store: Store, failed: BaseException) -> str:
+    happened = "it was stopped" if isinstance(failed, KeyboardInterrupt) else f"{type(failed).__name__}: {failed}"
+    return f"{store.finished.sum()} of {store.size} points are finished, then {happened.rstrip('.')}"
+
+
+def _remedy(kept: _Kept | None) -> str:
+    if kept and kept.save():
+        return f"What is finished is in {kept.path}: the same sweep with resume={str(kept.path)!r} does the rest"
+    name = str(kept.path) if kept else "FILE.npz"
+    return f"Nothing finished is lost: .result has it, .result.keep({name!r}) writes it, resume={name!r} goes on"
+
+
+def _boundary(asked: Request, executor: Any) -> Sweep | None:
+    """Return all critical values, where a picture of the sweep needs them."""
+    axes = _axes_of_boundary(asked)
+    if len(axes) != 1 or axes[0].values.size > MOST_DRAWN:
+        return None
+    if axes[0].name != "v" and isinstance(asked.problem.speed, SpeedRange):
+        return None  # each speed has its own
+    pairs = [(axis.name, axis.values) for axis in axes]
+    try:
+        return swept(asked.problem, "critical", pairs, hold=asked.task.hold, executor=executor)
+    except IncompleteSweepError:
+        return None  # the sweep itself is finished
+
+
+def _axes_of_boundary(asked: Request) -> list[Axis]:
+    """Return the axis over which the critical values bound what is stable: beside C_s, or with all C_s at once."""
+    quantity, axes = asked.task.question.of, asked.axes
+    if quantity in ("C_sl", "design"):
+        return list(axes)
+    with_damping = quantity in ("stable", "decay_rate", "damping_ratio") and len(axes) == 2
+    others = [axis for axis in axes if axis.name != "C_s"]
+    return others if with_damping else []

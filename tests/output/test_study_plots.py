@@ -1,0 +1,168 @@
+"""Pictures of sweeps, designs and optima: what they show, in which units, and that nothing is opened or changed."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import yawdesign as yd
+from yawdesign.output.branches import Column, curves, partners, stable_areas
+
+PRINTED = yd.table1(equations="as-printed")
+
+
+def drawn(result):
+    """Return the axes of a picture that could be saved."""
+    ax = yd.plot(result)
+    ax.figure.canvas.draw()
+    return ax
+
+
+def words(ax):
+    legend = ax.get_legend()
+    texts = [text.get_text() for text in legend.get_texts()] if legend else []
+    return " | ".join([ax.get_title(loc="left"), ax.get_xlabel(), ax.get_ylabel(), *texts])
+
+
+def pieces(ax, label):
+    """Return the points of the curves with a label."""
+    (lines,) = [c for c in ax.collections if c.get_label() == label]
+    return [np.asarray(piece) for piece in lines.get_segments()]
+
+
+def test_a_curve_with_all_its_branches_and_the_stable_side_shaded():
+    result = yd.sweep(PRINTED, of="critical", f_m="3:4:101")
+    ax = drawn(result)
+    for text in ("[Hz]", "kN·s/m", "300 km/h", "held", "becomes stable above", "becomes unstable above", "stable"):
+        assert text in words(ax)
+    rising = np.concatenate(pieces(ax, "becomes stable above"))
+    falling = np.concatenate(pieces(ax, "becomes unstable above"))
+    for k, values in enumerate(result.values):
+        f, roots = result.axes[0].values[k], result.columns["unstable_roots"][k]
+        for value, below in zip(values, roots, strict=False):
+            branch = rising if below > 0 else falling
+            assert np.min(np.hypot(branch[:, 0] - f, branch[:, 1] / value * 1e3 - 1)) < 1e-9
+    assert ax.get_yscale() == "log"
+
+
+def test_the_stable_area_is_where_no_root_is_unstable():
+    result = yd.sweep(PRINTED, of="critical", f_m="3:4:41")
+    ax = drawn(result)
+    area = ax.collections[0]
+    for f, C_s in [(3.1, 30), (3.1, 200), (3.45, 20), (3.45, 200), (3.45, 700), (3.8, 100), (3.8, 900)]:
+        inside = any(path.contains_point((f, C_s)) for path in area.get_paths())
+        single = PRINTED.replace(K_m=PRINTED.bogie.M_m * (2 * np.pi * f) ** 2, C_s=C_s * 1e3)
+        assert inside == yd.stability(single).stable
+
+
+def test_curves_end_where_they_fold_or_leave():
+    nan = np.nan
+    left = Column(np.array([10.0, nan, nan]), np.array([5.0, nan, nan]), np.array([2, 0, nan, nan]))
+    right = Column(np.array([9.0, 40.0, 60.0]), np.array([5.0, 7.0, 7.0]), np.array([2, 0, 2, 0]))
+    gone = Column(np.array([nan]), np.array([nan]), np.array([0.0, nan]))
+    x = np.array([1.0, 2.0])
+    assert partners(left, right) == [(0, 0)]
+    found = curves(x, [left, right], 1.0, 100.0)
+    assert found["unstable"] == [[(2.0, 40.0), (1.5, pytest.approx(np.sqrt(2400)))]]
+    assert [(2.0, 60.0), (1.5, pytest.approx(np.sqrt(2400)))] in found["stable"]
+    assert curves(x, [left, gone], 1.0, 100.0)["stable"] == [[(1.0, 10.0), (1.5, 1.0)]]
+    never = Column(np.array([nan]), np.array([nan]), np.array([2.0, nan]))
+    assert curves(x, [left, never], 1.0, 100.0)["stable"] == [[(1.0, 10.0), (1.5, 100.0)]]
+    assert list(stable_areas(x, [never, never], 1.0, 100.0)) == []
+    assert len(list(stable_areas(x, [gone, gone], 1.0, 100.0))) == 1
+
+
+def test_the_stability_chart_with_its_boundary():
+    result = yd.sweep(PRINTED, of="stable", C_s=np.geomspace(1e4, 1e6, 30), v="250 km/h:400 km/h:31")
+    ax = drawn(result)
+    for text in ("running speed $v$ [km/h]", "[kN·s/m]", "stable | unstable", "becomes stable above"):
+        assert text in words(ax)
+    assert (ax.get_xscale(), ax.get_yscale()) == ("log", "linear")
+    assert ax.get_ylim() == pytest.approx((250, 400))
+    line = np.concatenate(pieces(ax, "becomes stable above"))
+    at_300 = line[np.argmin(np.abs(line[:, 1] - 300))]
+    assert at_300 == pytest.approx([90.7028897787, 300], rel=1e-6)
+    swapped = yd.sweep(PRINTED, of="stable", v="250 km/h:400 km/h:31", C_s=np.geomspace(1e4, 1e6, 30))
+    assert words(drawn(swapped)) == words(ax)
+    assert np.array_equal(drawn(swapped).collections[0].get_array(), ax.collections[0].get_array())
+
+
+@pytest.mark.parametrize(
+    ("of", "axes", "texts"),
+    [
+        ("decay_rate", {"C_s": "1e4:1e7:30:log"}, ["least decay rate [1/s]", "stable"]),
+        ("damping_ratio", {"C_s": "1e4:1e7:30:log"}, ["least damping ratio [%]", "unstable"]),
+        ("stable", {"v": "250 km/h:400 km/h:20"}, ["[km/h]", "stable"]),
+        ("C_sl", {"f_m": "1:8:50"}, ["kN·s/m", "of the interval chosen", "becomes stable above"]),
+        ("design", {"f_m": "1:8:50"}, ["golden section", "limit of the curve", "least stable"]),
+        ("critical_speed", {"C_s": "1e4:1e6:20:log"}, ["critical speed $v$ [km/h]", "becomes unstable above"]),
+        ("critical", {"xi_m": "0.05:1:50"}, ["damping ratio of the motor suspension"]),
+        ("margin", {"C_s": "1e4:1e6:9:log", "lambda_": "0.05:0.4:8"}, ["equivalent conicity", "becomes stable above"]),
+        ("decay_rate", {"lambda_": "0.05:0.4:8", "v": "200 km/h:400 km/h:9"}, ["km/h"]),
+        ("critical", {"f_m": "1:8:9", "v": "200 km/h:400 km/h:9"}, ["stable for every"]),
+        ("C_sl", {"f_m": "1:8:9", "v": "200 km/h:400 km/h:9"}, ["stable without a yaw damper"]),
+        ("design", {"f_m": "1:8:9", "v": "200 km/h:400 km/h:9"}, ["natural frequency"]),
+        ("critical_speed", {"C_s": "1e4:1e7:5:log", "lambda_": "0.05:0.4:5"}, ["stable at every speed"]),
+    ],
+)
+def test_every_quantity_over_one_and_two_axes(of, axes, texts):
+    ax = drawn(yd.sweep(PRINTED, of=of, **axes))
+    for text in texts:
+        assert text in words(ax)
+
+
+def test_answers_without_a_value_are_drawn_by_their_reason():
+    motionless = PRINTED.replace(K_m=0.0)
+    assert "stable for none" in words(drawn(yd.sweep(motionless, of="C_sl", lambda_=[0.1, 0.2, 0.3])))
+    over = {"lambda_": [0.1, 0.2, 0.3], "v": [70, 80, 90]}
+    assert r"stable for no $C_\mathrm{s}$" in words(drawn(yd.sweep(motionless, of="C_sl", **over)))
+    tight = PRINTED.replace(curve=dataclasses.replace(PRINTED.curve, limit=0.001))
+    assert "no design" in words(drawn(yd.sweep(tight, of="design", lambda_=[0.1, 0.2, 0.3])))
+    assert "no design" in words(drawn(yd.sweep(tight, of="design", **over)))
+
+
+def test_three_axes_need_a_plane():
+    whole = yd.sweep(PRINTED, of="stable", C_s=[5e4, 5e5], v=[70, 90], lambda_=[0.1, 0.2])
+    with pytest.raises(yd.ProblemError, match="choose a plane"):
+        yd.plot(whole)
+    assert r"$\lambda$ = 0.1" in words(drawn(whole.at(lambda_=0.1)))
+
+
+def test_a_range_of_speeds_is_named():
+    problem = PRINTED.replace(speed=yd.SpeedRange(min="250 km/h", max="350 km/h", steps=3))
+    ax = drawn(yd.sweep(problem, of="C_sl", lambda_="0.1:0.3:9"))
+    assert "250 to 350 km/h" in words(ax)
+    assert "stable above the curve" in words(ax)
+
+
+def test_axes_that_are_given_are_used():
+    figure = Figure()
+    left, right = figure.subplots(1, 2)
+    assert yd.plot(yd.sweep(PRINTED, of="critical", f_m="1:8:9"), ax=left) is left
+    assert yd.plot(yd.design(PRINTED), ax=right) is right
+
+
+def test_forward_design():
+    ax = drawn(yd.design(PRINTED))
+    for text in ("ok", "2 593 kN·s/m", "1 047 kN·s/m", "unstable | stable"):
+        assert text in words(ax)
+    (note,) = [text.get_text() for text in ax.texts]
+    assert "90.7 kN·s/m" in note
+    assert "3.69 Hz" in note
+    assert ax.get_xscale() == "log"
+    several = PRINTED.replace(speed=yd.SpeedRange(min="250 km/h", max="350 km/h", steps=5))
+    assert "running speed" in words(drawn(yd.design(several)))
+    nothing = yd.design(PRINTED.replace(K_m=0.0, curve=None))
+    assert "stable for none" in words(drawn(nothing))
+
+
+def test_optimum():
+    variables = {"C_s": yd.Variable(min="10 kN s/m", max="10 MN s/m")}
+    best = yd.optimise(PRINTED.replace(design=yd.Design(variables=variables)))
+    ax = drawn(best)
+    assert "1.29854 1/s" in words(ax)
+    assert "before" in words(ax)
+    assert "2 593 kN·s/m" in " ".join(text.get_text() for text in ax.texts)
+    with pytest.raises(yd.ProblemError, match="nothing to draw"):
+        yd.plot(dataclasses.replace(best, margin=None))

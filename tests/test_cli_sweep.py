@@ -1,0 +1,204 @@
+"""The command sweep: answers by the contract, files, exit codes, and what it keeps when something breaks."""
+
+import errno
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import yawdesign as yd
+from yawdesign.cli import app
+from yawdesign.study import chunks
+
+PROBLEM = Path(__file__).parents[1] / "problems" / "table1.yaml"
+RUN = CliRunner()
+CURVE = ("--of", "critical", "--over", "f_m=2:4:5")
+
+
+@pytest.fixture(autouse=True)
+def in_a_folder_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def run(*arguments, code=0):
+    result = RUN.invoke(app, ["sweep", str(PROBLEM), *map(str, arguments)])
+    assert result.exit_code == code, result.output + str(result.exception)
+    return result
+
+
+def answer(*arguments, code=0):
+    return json.loads(run(*arguments, "--json", code=code).stdout)
+
+
+def test_json_by_the_contract():
+    data = answer("--of", "C_sl", "--over", "f_m=0.5:8:4", "--over", "v=150 km/h:450 km/h:3")
+    assert data["of"] == "C_sl"
+    assert [(axis["name"], axis["unit"]) for axis in data["axes"]] == [("f_m", "Hz"), ("v", "m/s")]
+    assert data["axes"][1]["values"] == pytest.approx([150 / 3.6, 300 / 3.6, 450 / 3.6])
+    assert [len(data["values"]), len(data["values"][0])] == [4, 3]
+    single = yd.load(PROBLEM).replace(speed="450 km/h", K_m=1765 * (2 * np.pi * 8) ** 2)
+    assert data["values"][3][2] == pytest.approx(yd.design(single).C_sl, rel=1e-8)
+
+
+def test_C_sl_is_the_default():
+    assert answer("--over", "v=280 km/h:300 km/h:2")["values"][1] == pytest.approx(90702.8897786979, rel=1e-9)
+
+
+def test_hold():
+    both = [answer(*CURVE, *hold)["values"] for hold in ((), ("--hold", "C_m"), ("--hold", "xi_m"))]
+    assert both[0] == both[1] != both[2]
+
+
+def test_a_logarithmic_range():
+    axis = answer("--of", "stable", "--over", "C_s=1e4:1e6:3:log")["axes"][0]
+    assert axis["values"] == pytest.approx([1e4, 1e5, 1e6])
+
+
+def test_table():
+    text = run(*CURVE).stdout
+    for part in ("Sweep of critical", "2 Hz ... 4 Hz, 5 values", "280.662 kN·s/m", "stable for some C_s"):
+        assert part in text
+    text = run("--of", "stable", "--over", "C_s=1e4:1e6:9:log", "--over", "v=250 km/h:350 km/h:3").stdout
+    assert "27" in text
+
+
+def test_files(tmp_path):
+    done = run(*CURVE, "--csv", "x.csv", "--npz", "x.npz", "--plot", "x.png")
+    assert "Sweep of critical" in done.stdout
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["x.csv", "x.npz", "x.png"]
+    assert Path("x.csv").read_text().count("\n") == 2 + 1 + 5
+    assert np.load("x.npz")["axis_f_m"].tolist() == [2, 2.5, 3, 3.5, 4]
+    assert Path("x.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_exit_code_1_where_nothing_is_stable():
+    assert answer("--of", "stable", "--over", "C_s=1e4:2e4:3", code=1)["values"] == [False] * 3
+
+
+def test_exit_code_3_where_a_point_is_not_verified(monkeypatch):
+    evaluate = chunks.evaluate
+
+    def doubtful(*arguments, **options):
+        found = evaluate(*arguments, **options)
+        found.unverified[1] = True
+        return found
+
+    monkeypatch.setattr(chunks, "evaluate", doubtful)
+    assert answer(*CURVE, code=3)["values"][1] is None
+    assert "NO at 1 points" in run(*CURVE, code=3).stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "texts"),
+    [
+        (("--over", "fm=1:2:3"), ["did you mean f_m?"]),
+        (("--over", "f_m"), ["f_m", "no range"]),
+        (("--over", "f_m=3:2:9", "--over", "K_m=1:2:3", "--of", "all"), ["f_m.max", "contradicts", "of: all"]),
+        (("--over", "v=70:80:3", "--over", "v=70:80:3"), ["given twice"]),
+        (("--over", "f_m=1:2:3", "--hold", "both"), ["hold"]),
+        (("--over", "f_m=1:2:3", "--csv", "none/x.csv", "--plot", "x.bmp"), ["no folder none", "x.bmp"]),
+        (("--over", "f_m=1:2:3", "--plot", "x.png", "--over", "v=1:2:3", "--over", "a=1:2:3"), ["one or two axes"]),
+        (("--over", "f_m=1:2:3", "--jobs", "2", "--dask", "tcp://127.0.0.1:1"), ["choose one"]),
+        (("--over", "v=1:99:100000", "--over", "a=1:2:100000", "--over", "b=0.7:0.8:100000"), ["1e+15 points"]),
+        (("--of", "stable"), ["Missing option"]),
+    ],
+)
+def test_bad_input_is_exit_code_2(arguments, texts):
+    done = run(*arguments, code=2)
+    assert done.stdout == ""
+    for text in texts:
+        assert text in done.stderr
+
+
+def test_no_scheduler(monkeypatch):
+    monkeypatch.setattr(chunks, "CONNECT", 0.3)
+    done = run(*CURVE, "--dask", "tcp://127.0.0.1:1", code=2)
+    assert "no scheduler answers at tcp://127.0.0.1:1" in done.stderr
+
+
+def test_jobs_and_dask(tmp_path):
+    from distributed import LocalCluster
+
+    expected = answer(*CURVE)["values"]
+    assert answer(*CURVE, "--jobs", 2)["values"] == [pytest.approx(x, rel=1e-12) for x in expected]
+    with LocalCluster(processes=False, n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster:
+        found = answer(*CURVE, "--dask", cluster.scheduler_address)["values"]
+    assert found == [pytest.approx(x, rel=1e-12) for x in expected]
+
+
+def broken(monkeypatch, error):
+    """Break after the first chunk."""
+    compute, calls = chunks.answer, []
+
+    def breaks(*arguments):
+        calls.append(1)
+        if len(calls) > 1:
+            raise error
+        return compute(*arguments)
+
+    monkeypatch.setattr(chunks, "answer", breaks)
+    monkeypatch.setattr(chunks, "HERE", 2)
+
+
+@pytest.mark.parametrize(("error", "code"), [(KeyboardInterrupt(), 130), (MemoryError("too little"), 3)])
+@pytest.mark.parametrize("resume", [(), ("--resume", "mine.npz")])
+def test_what_is_finished_is_kept(monkeypatch, error, code, resume):
+    expected = answer(*CURVE)
+    broken(monkeypatch, error)
+    done = run(*CURVE, *resume, code=code)
+    name = "mine.npz" if resume else "table1.sweep.npz"
+    assert "2 of 5 points are finished" in done.stderr
+    assert f"repeat the command with --resume {name}" in done.stderr
+    monkeypatch.undo()
+    monkeypatch.chdir(Path(name).absolute().parent)
+    assert answer(*CURVE, "--resume", name)["values"] == [pytest.approx(x, rel=1e-12) for x in expected["values"]]
+
+
+def full_disk(monkeypatch, *names):
+    """Let the writing of files fail whose names contain one of `names`."""
+    opened = Path.open
+
+    def full(self, mode="r", *more, **options):
+        if "w" in mode and any(name in self.name for name in names):
+            raise OSError(errno.ENOSPC, "No space left on device", str(self))
+        return opened(self, mode, *more, **options)
+
+    monkeypatch.setattr(Path, "open", full)
+
+
+def test_a_full_disk_keeps_the_answer_elsewhere(monkeypatch, tmp_path):
+    full_disk(monkeypatch, "x.csv")
+    done = run(*CURVE, "--csv", "x.csv", "--npz", "x.npz", code=2)
+    assert "x.csv could not be written: No space left on device" in done.stderr
+    assert "--resume table1.sweep.npz" in done.stderr
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["table1.sweep.npz", "x.npz"]
+    monkeypatch.undo()
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(chunks, "answer", None)  # nothing is computed again
+    run(*CURVE, "--csv", "x.csv", "--resume", "table1.sweep.npz")
+
+
+def test_a_disk_without_any_room(monkeypatch, tmp_path):
+    full_disk(monkeypatch, ".csv", ".npz")
+    done = run(*CURVE, "--csv", "x.csv", code=2)
+    assert "make room" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_device_that_is_full():
+    if not Path("/dev/full").is_char_device():
+        return
+    done = run(*CURVE, "--csv", "/dev/full", code=2)
+    assert "/dev/full could not be written" in done.stderr
+    assert Path("/dev/full").is_char_device()
+    command = [sys.executable, "-m", "yawdesign.cli", "sweep", str(PROBLEM), *CURVE, "--json"]
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 2
+    assert "the answer could not be written" in done.stderr
+    assert "--resume table1.sweep.npz" in done.stderr
+    assert "Traceback" not in done.stderr
