@@ -2,8 +2,8 @@
 
     python examples/python-control/bode.py problems/table1.yaml bode.png
 
-From the track's alignment under the front wheelset to the frame's lateral motion, and the least damped poles against the
-yaw damping (a root locus of the hunting motion).
+Left: from the track's alignment under the front wheelset to the frame's lateral motion. Right: the poles for many yaw
+dampings, a root locus of the hunting motion.
 """
 
 import sys

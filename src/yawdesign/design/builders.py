@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
+from types import SimpleNamespace
 from typing import Any
 
 import casadi as ca
@@ -32,7 +33,7 @@ def _core(draft: Draft) -> Polynomial:
     """Return the coupled motion's polynomial in s / (100 rad/s), without powers that are known not to be there."""
     p, C_s = _all(draft)
     core = scale_variable(characteristic(p, **draft.setting.model).core(C_s), TIME_UNIT)
-    return trim(core, lambda a: isinstance(a, (int, float)) and a == 0)
+    return trim(core, lambda a: bool(a.is_zero() if isinstance(a, ca.SX) else a == 0))
 
 
 def state_matrix(draft: Draft) -> None:
@@ -98,22 +99,14 @@ def critical_damping(draft: Draft) -> None:
 
 def rotational_resistance_function(draft: Draft) -> None:
     """Rotational resistance in the curve, eq. (13), and the damping that the curve allows, eq. (14)."""
+    if draft.setting.load is None:
+        raise ProblemError("rotational_resistance needs a curve, and the problem has none")
     p = draft.parameters(("W", "a", "b_0", "b_2", "b_3", "K_2x", "C_t", "C_s"))
-    curve: Any = _Curve(draft.parameters(tuple(CURVE)), draft.setting.load)
-    load = LOADS[curve.load]
+    curve: Any = SimpleNamespace(**draft.parameters(tuple(CURVE)), load=draft.setting.load)
+    load = LOADS[draft.setting.load]
     draft.output("X", "-", f"rotational resistance T / (4 Q a), {load}", rotational_resistance(p, p["C_s"], curve))
     draft.output("T", "N·m", "moment that resists the rotation", resisting_moment(p, p["C_s"], curve))
     draft.output("C_su", "N·s/m", "C_s at which T / (4 Q a) reaches the limit", curving_limit(p, curve))
-
-
-class _Curve:
-    """A curve whose sizes may be symbols."""
-
-    def __init__(self, values: Mapping[str, Any], load: str | None) -> None:
-        if load is None:
-            raise ProblemError("rotational_resistance needs a curve, and the problem has none")
-        self.load = load
-        self.__dict__.update(values)
 
 
 def stability_margin(draft: Draft) -> None:

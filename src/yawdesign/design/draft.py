@@ -7,6 +7,7 @@ from typing import Any
 import casadi as ca
 
 from yawdesign.design.conditions import model
+from yawdesign.design.space import JOINTED, LEAST
 from yawdesign.problem import PARAMETERS, Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.parameters import parameter_keys
@@ -89,7 +90,8 @@ class Setting:
     def examples(self) -> dict[str, float]:
         """Values of all parameters; where the problem has none those of the paper, and its largest speed."""
         usual = {"C_s": float(PARAMETERS["C_s"].check(PARAMETERS["C_s"].example)), "v": self.top_speed}
-        return {key: usual[key] if value is None else value for key, value in self.values.items()}
+        values = {key: usual[key] if value is None else value for key, value in self.values.items()}
+        return values | {key: LEAST for key in JOINTED.intersection(self.open) if values[key] == 0}
 
 
 def _known(inputs: Collection[str], allowed: Collection[str]) -> set[str]:

@@ -16,23 +16,24 @@ if TYPE_CHECKING:
     from yawdesign.response.following import FollowedModes
     from yawdesign.response.modes import Modes
 
-LEAST_SHARE, MOST_NAMED = 0.05, 5
+LEAST_SHARE, MOST_NAMED = 0.05, 3
 
 
 def _table(title: str, *columns: str) -> Table:
-    table = Table(title=title, title_justify="left", title_style="bold")
-    for k, column in enumerate(columns):
-        table.add_column(column, justify="left" if k == 0 else "right")
+    table = Table(title=title, title_justify="left", title_style="bold", padding=(0, 0), pad_edge=True)
+    table.add_column("mode", no_wrap=True)
+    for column in columns:
+        table.add_column(column, justify="right", no_wrap=True)
     return table
 
 
 def modes_tables(result: "Modes") -> RenderableType:
     """Return the tables of `Modes`."""
     title = f"Modes at {speed(result.speed)} with C_s = {damping(result.C_s)}, slowest decay first"
-    table = _table(title, "mode", "frequency [Hz]", "damping ratio [%]", "decay rate [1/s]")
+    table = _table(title, "[Hz]", "damping\n[%]", "decay\n[1/s]")
     table.add_column("takes part [%]")
     for mode in result.modes:
-        frequency = f"{mode.frequency:.3f}" if mode.frequency else "no oscillation"
+        frequency = f"{mode.frequency:.3f}" if mode.frequency else "-"
         numbers = (frequency, f"{100 * mode.damping_ratio:.2f}", f"{mode.decay_rate:.4g}")
         table.add_row(mode.name, *numbers, _shares(mode.participation))
     checked = "yes, by two independent ways" if result.checked else "NO: the two ways differ"
@@ -47,31 +48,22 @@ def _shares(participation: "Mapping[str, float]") -> str:
 def followed_tables(result: "FollowedModes") -> RenderableType:
     """Return the tables of `FollowedModes`."""
     first, last = (_shown(result, float(value)) for value in result.values[[0, -1]])
-    title = f"Modes over {result.axis} from {first} to {last}"
-    columns = ("frequency [Hz]", "damping ratio [%]", "least damping ratio [%]", "at", "sure")
-    table = _table(title, "mode", *columns)
+    title = f"Modes over {result.axis}, from {first} to {last}"
+    table = _table(title, "[Hz] at\nfirst", "last", "damping [%]\nfirst", "last", "least", "at")
     for k, name in enumerate(result.names):
         ratio = 100 * result.damping_ratio[:, k]
         least = int(np.nanargmin(ratio))
-        place = _shown(result, float(result.values[least]))
-        ends = [" ... ".join(_ends(values[:, k], scale)) for values, scale in _ranges(result)]
-        table.add_row(name, *ends, f"{ratio[least]:.2f}", place, _sure(result, k))
-    checked = "yes" if result.checked else "NO"
+        ends = [_number(values[i]) for values in (result.frequency[:, k], ratio) for i in (0, -1)]
+        table.add_row(name, *ends, _number(ratio[least]), _shown(result, float(result.values[least])))
+    certainty = f"least certainty of a link: {100 * np.nanmin(result.certainty):.0f} %"
     lines = [_meeting(result, k) for k in range(len(result.meetings))]
-    return Group(table, *(Text(line) for line in lines), Text(f"checked: {checked}"))
+    checked = "yes" if result.checked else "NO: a link is not sure, or an eigenvalue is not exact"
+    return Group(table, *(Text(line) for line in (*lines, certainty, f"checked: {checked}")))
 
 
-def _ranges(result: "FollowedModes") -> "tuple[tuple[np.ndarray[tuple[int, ...], np.dtype[np.float64]], float], ...]":
-    return (result.frequency, 1.0), (result.damping_ratio, 100.0)
-
-
-def _ends(values: "np.ndarray[tuple[int, ...], np.dtype[np.float64]]", scale: float) -> list[str]:
-    return ["-" if np.isnan(value) else f"{scale * value:.3g}" for value in values[[0, -1]]]
-
-
-def _sure(result: "FollowedModes", k: int) -> str:
-    least = np.nanmin(result.certainty[:, k]) if np.any(np.isfinite(result.certainty[:, k])) else np.nan
-    return "-" if np.isnan(least) else f"{100 * least:.0f} %"
+def _number(value: float) -> str:
+    """Return a frequency [Hz] or a damping ratio [%]; a mode that is not there, or does not oscillate, has none."""
+    return "-" if not value or np.isnan(value) else f"{value:.3g}"
 
 
 def _shown(result: "FollowedModes", value: float) -> str:

@@ -142,7 +142,7 @@ def follow_modes(problem: Problem, **axis: Sequence[float | str] | NDArray[np.fl
     kept = np.flatnonzero(np.any(branches.imag >= 0, axis=0))
     kept = kept[np.argsort(_size(branches[:, kept]), kind="stable")]
     names = _names(systems[0], places, paths, kept)
-    s = np.where(branches.imag >= 0, branches, np.nan)[:, kept]
+    s = np.where(branches.imag >= 0, branches, complex(np.nan, np.nan))[:, kept]
     certainty = np.hstack([path.certainty for path in paths])[:, kept]
     label = {int(k): mode for k, mode in zip(kept, names, strict=True)}
     meetings = _meetings(paths, label)

@@ -92,7 +92,7 @@ def modes(problem: Problem) -> Modes:
     >>> import yawdesign as yd
     >>> first = yd.modes(yd.table1()).modes[0]
     >>> first.name, round(first.frequency, 4), round(first.damping_ratio, 5)
-    ('wheelset hunting 1', 2.5535, 0.07114)
+    ('wheelset hunting 1', 2.5535, 0.07113)
     """
     verdict = stability(problem)
     p, model = parameters_at(problem, verdict.speed), model_of(problem)

@@ -1,0 +1,112 @@
+"""Pictures of modes: what is drawn, with which units, and files that move."""
+
+import io
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import yawdesign as yd
+from yawdesign.output.animation import FRAMES, gif, svg
+from yawdesign.output.mode_plots import mode_paths
+from yawdesign.output.plan_view import bodies, find_mode
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+@pytest.fixture(scope="module")
+def modes():
+    return yd.modes(yd.table1())
+
+
+@pytest.fixture(scope="module")
+def over_speed():
+    return yd.follow_modes(yd.table1(), v=np.linspace(50, 450, 30) / 3.6)
+
+
+@pytest.fixture(scope="module")
+def over_damping():
+    return yd.follow_modes(yd.table1(), C_s=np.geomspace(1e4, 5e6, 30))
+
+
+def test_root_locus(over_damping):
+    ax = yd.plot(over_damping)
+    assert ax.get_xlabel() == "real part [1/s]"
+    assert ax.get_ylabel() == "frequency [Hz]"
+    bar = ax.figure.axes[1]
+    assert "kN·s/m" in bar.get_ylabel()
+    assert bar.get_ylim() == pytest.approx((10, 5000))
+    texts = {text.get_text() for text in ax.texts}
+    assert {"stable", "unstable", "wheelset hunting 1", "frame yaw"} <= texts
+
+
+def test_damping_over_speed(over_speed):
+    ax = yd.plot(over_speed, of="damping_ratio", target=0.05)
+    assert "km/h" in ax.get_xlabel()
+    assert ax.get_xlim() == pytest.approx((50, 450))
+    lines = {line.get_label(): line for line in ax.lines}
+    k = over_speed.names.index("wheelset hunting 1")
+    assert lines["wheelset hunting 1"].get_ydata() == pytest.approx(100 * over_speed.damping_ratio[:, k])
+    assert "target 5 %" in lines
+    assert "target 5 %" not in {line.get_label() for line in yd.plot(over_speed, of="damping_ratio").lines}
+
+
+def test_frequency_on_a_logarithmic_axis(over_damping, over_speed):
+    assert yd.plot(over_damping, of="frequency").get_xscale() == "log"
+    assert yd.plot(over_speed, of="frequency").get_xscale() == "linear"
+
+
+def test_wrong_options(over_speed):
+    with pytest.raises(yd.ProblemError, match="is not one of: root_locus"):
+        mode_paths(over_speed, of="locus")
+    with pytest.raises(yd.ProblemError, match="give a larger `widest`"):
+        mode_paths(over_speed, widest=0.1)
+
+
+def test_mode_shape_in_plan_view(modes):
+    ax = yd.plot(modes, mode="frame yaw")
+    assert ax.get_title().startswith("frame yaw: 9.73 Hz, damping ratio 52.4 %\n300 km/h, C_s = 1 000 kN·s/m")
+    moved = bodies(modes, find_mode(modes, "frame yaw"))
+    assert [body.kind for body in moved] == ["wheelset", "wheelset", "motor", "motor", "frame"]
+    assert [body.x for body in moved] == pytest.approx([1.25, -1.25, 0.75, -0.75, 0])
+    with pytest.raises(yd.ProblemError, match="did you mean frame yaw"):
+        yd.plot(modes, mode="frame yow")
+
+
+def test_a_positive_yaw_turns_the_front_to_the_left(modes):
+    mode = find_mode(modes, None)
+    frame = bodies(modes, mode)[-1]
+    ax = yd.plot(modes)
+    drawn = [patch.get_xy() for patch in ax.patches][-5][:4]  # the frame's left beam: front left, rear left, ...
+    lift = drawn[0][1] - drawn[1][1]
+    assert np.sign(lift) == np.sign(frame.phi.real)
+    assert drawn[:, 1].mean() == pytest.approx(frame.y.real + modes.parameters["b_1"] * np.cos(frame.phi.real))
+
+
+def test_gif_has_one_cycle(modes):
+    picture = Image.open(io.BytesIO(gif(modes)))
+    assert picture.n_frames == FRAMES
+    frames = []
+    for k in (0, FRAMES // 2):
+        picture.seek(k)
+        frames.append(np.asarray(picture.convert("L"), dtype=float))
+    assert np.abs(frames[0] - frames[1]).max() > 50
+
+
+def test_svg_holds_the_shape(modes):
+    root = ET.fromstring(svg(modes, "motor yaw, against each other"))
+    moving = [group for group in root.iter(SVG + "g") if "data-y" in group.attrib]
+    assert len(moving) == 5
+    front, rear = (complex(*map(float, group.get("data-phi").split())) for group in moving[2:4])
+    assert front == pytest.approx(-rear)
+    assert abs(front) > 0
+    assert "requestAnimationFrame" in root.find(SVG + "script").text
+    assert root.find(SVG + "title").text.startswith("motor yaw, against each other: 2.86 Hz")
+
+
+def test_animate_writes_what_the_ending_says(modes, tmp_path):
+    assert yd.animate(modes, tmp_path / "a.svg", mode="yaw damper relaxation").read_text().startswith("<svg")
+    with pytest.raises(yd.ProblemError, match=r"as \.gif or \.svg"):
+        yd.animate(modes, tmp_path / "a.png")
+    assert [path.name for path in tmp_path.iterdir()] == ["a.svg"]
