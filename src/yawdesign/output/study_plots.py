@@ -37,6 +37,7 @@ LABELS = {
     "critical_speed": "critical speed $v$",
     "stable": "",
 }
+DECADES = 1000.0  # of a logarithmic scale, below its largest value
 WIDE = 30.0  # ratio of values from which on a logarithmic scale reads better
 
 
@@ -147,7 +148,7 @@ def _branches(sweep: Sweep, ax: "Axes", x: Float, *, legend: bool = True) -> Non
     columns = columns_of(sweep, to_unit(1.0, shown_unit(sweep)))
     low, high = _limits(sweep, ax)
     areas = list(stable_areas(x, columns, low, high))
-    ax.add_collection(PolyCollection(areas, facecolors=STABLE, edgecolors=STABLE, linewidths=0.3, zorder=0))
+    ax.add_collection(PolyCollection(areas, facecolors=STABLE, linewidths=0, antialiaseds=False, zorder=0))
     draw_lines(ax, curves(x, columns, low, high))
     handles, _ = ax.get_legend_handles_labels()
     if areas:
@@ -167,7 +168,7 @@ def _limits(sweep: Sweep, ax: "Axes") -> tuple[float, float]:
         low, high = 0.0, 1000.0
     elif found.max() > WIDE * found.min():
         ax.set_yscale("log")
-        low, high = found.min() / 2, found.max() * 2
+        low, high = max(found.min() / 2, found.max() / DECADES), found.max() * 2
     else:
         low, high = 0.0, 1.15 * found.max()
     ax.set_ylim(low, high)
