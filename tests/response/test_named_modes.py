@@ -44,7 +44,12 @@ def physical_eigenvectors(p, C_s, model):
     system = StateSpace(physical(bogie({**p, "C_s": C_s}, **model)))
     matrix = state_matrix(p, C_s, **model)
     s, right = np.linalg.eig(matrix)
-    return s, right, np.linalg.inv(right).T, (*system.coordinates, *system.coordinates, *system.strokes)
+    return (
+        s,
+        right,
+        np.linalg.inv(right).T,
+        (*system.coordinates, *system.coordinates, *(link.name for link, _ in system.strokes)),
+    )
 
 
 def test_shapes_and_participation_in_the_coordinates_of_each_end(table1, model):
