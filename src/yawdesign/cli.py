@@ -264,8 +264,10 @@ def modes(
 ) -> None:
     """Show all modes by name: frequency, damping, what takes part; follow them over speed or any parameter."""
     with _mistakes_shown():
+        from yawdesign.output import histories
         from yawdesign.problem import ProblemError
 
+        to_plot = plot and histories.checked_ending(plot, histories.PICTURES)
         problem = _read(file)
         if over and (to or animate):
             raise ProblemError("--animate and --to show a mode at one place: leave out --over")
@@ -273,8 +275,11 @@ def modes(
             result: Any = import_module("yawdesign.response.following").follow_modes(problem, **_axis(over))
         else:
             result = import_module("yawdesign.response.modes").modes(problem)
-        if plot:
-            _draw(result, plot, {"of": of} if over else {"mode": animate or None})
+        if to_plot:
+            from yawdesign.output.plots import plot as draw
+
+            options: dict[str, Any] = {"of": of} if over else {"mode": animate or None}
+            histories.write_picture(lambda: draw(result, **options), to_plot)
         if to:
             import_module("yawdesign.output.animation").animate(result, to, mode=animate or None)
         _show(result, as_json, "followed_tables" if over else "modes_tables", "yawdesign.output.mode_tables")
@@ -283,41 +288,17 @@ def modes(
 
 def _axis(text: str) -> dict[str, Any]:
     """Return a parameter with its values, from NAME=LOW:HIGH:N, or NAME=LOW:HIGH:N:log for geometric steps."""
-    import numpy as np
-
     from yawdesign.problem import PARAMETERS, ProblemError
     from yawdesign.problem.diagnostics import unknown_key
-    from yawdesign.problem.running import SPEED
-    from yawdesign.problem.table import as_count, check_ends
+    from yawdesign.study.axes import ROWS, read_range
 
-    name, _, rest = text.partition("=")
-    ends, rows = rest.removesuffix(":log").split(":"), {"v": SPEED, **PARAMETERS}
-    if len(ends) != 3:
-        raise ProblemError(f"--over {text}: expected NAME=LOW:HIGH:N or NAME=LOW:HIGH:N:log")
-    if name not in rows:
-        raise ProblemError(f"--over {text}: {name} {unknown_key(name, rows)}")
-    low, high = map(float, check_ends(ends[0], ends[1], rows[name]))
-    if rest.endswith(":log") and low <= 0:
-        raise ProblemError(f"--over {text}: geometric steps start above 0")
-    space = np.geomspace if rest.endswith(":log") else np.linspace
-    return {name: space(low, high, as_count(int(ends[2]) if ends[2].isdigit() else ends[2], 2, 100_000))}
-
-
-def _draw(result: Any, file: str, options: dict[str, Any]) -> None:
-    """Draw a result into a file, beside its place at first, so that no half of it is ever there."""
-    from yawdesign.output.plots import plot
-    from yawdesign.problem import ProblemError
-
-    path = Path(file)
-    if path.suffix.lower() not in (".pdf", ".png", ".svg"):
-        raise ProblemError(f"{file}: a picture is written as .pdf, .png or .svg")
-    beside = path.with_name(path.name + ".part")
+    name, _, values = text.partition("=")
     try:
-        figure: Any = plot(result, **options).figure
-        figure.savefig(beside, dpi=150, format=path.suffix[1:].lower())
-        beside.replace(path)
-    finally:
-        beside.unlink(missing_ok=True)
+        if name not in (allowed := ("v", *PARAMETERS)):
+            raise ProblemError(f"{name} {unknown_key(name, allowed)}")
+        return {name: read_range(values, ROWS[name])}
+    except ProblemError as error:
+        raise error.under(f"--over {text}") from None
 
 
 @contextmanager
@@ -369,6 +350,7 @@ def new(
 ) -> None:
     """Write a commented problem file to start from."""
     from yawdesign.problem import ProblemError, starter
+    from yawdesign.study.writing import write_whole
 
     with _mistakes_shown():
         if kind not in ("power", "trailer"):
@@ -376,20 +358,8 @@ def new(
         path = Path(file)
         if path.exists() and not force:
             raise ProblemError(f"{file} exists: choose another name, or give --force to replace it")
-        _write(path, starter(kind))
+        write_whole(path, starter(kind).encode())
     typer.echo(f"wrote {file}; next: yawdesign optimise {file}")
-
-
-def _write(path: Path, text: str) -> None:
-    """Write a file beside its place and rename it, so that no half of it is ever there."""
-    beside = path.with_name(path.name + ".part")
-    try:
-        beside.write_text(text, encoding="utf-8")
-        beside.replace(path)
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, str(path)) from None
-    finally:
-        beside.unlink(missing_ok=True)
 
 
 @app.command()

@@ -248,10 +248,14 @@ def test_a_place_that_cannot_be_written_is_named_and_left_clean(tmp_path, monkey
     with pytest.raises(OSError, match=r"bogie\.fmu"):
         yd.write_fmu(TABLE_1, tmp_path / "file" / "bogie.fmu")
 
-    def read_only(self, content):
-        raise PermissionError(13, "Permission denied", str(self))
+    ordinary = Path.open
 
-    monkeypatch.setattr(Path, "write_bytes", read_only)
+    def read_only(self, mode="r", *more, **options):
+        if "w" in mode and self.name.startswith("bogie.fmu"):
+            raise PermissionError(13, "Permission denied", str(self))
+        return ordinary(self, mode, *more, **options)
+
+    monkeypatch.setattr(Path, "open", read_only)
     monkeypatch.setattr("yawdesign.output.fmi.archive._library", lambda texts: (b"", ""))
     with pytest.raises(PermissionError, match=r"Permission denied: '.*bogie\.fmu'"):
         yd.write_fmu(TABLE_1, tmp_path / "bogie.fmu")

@@ -50,15 +50,15 @@ def test_pictures(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--over", "C_s=1:2"], "expected NAME=LOW:HIGH:N"),
+        (["--over", "C_s=1:2"], "write LOW:HIGH:N"),
         (["--over", "C_z=1:2:3"], "did you mean C_t"),
         (["--over", "C_s=2 kN s/m:1 kN s/m:3"], "less than min"),
         (["--over", "C_s=1:2:many"], "many"),
-        (["--over", "C_s=0:2:3:log"], "start above 0"),
+        (["--over", "C_s=0:2:3:log"], "must begin"),
         (["--over", "C_s=1:2:3", "--to", "x.gif"], "leave out --over"),
         (["--animate", "frame yow", "--to", "x.gif"], "did you mean frame yaw"),
         (["--to", "x.mp4"], "as .gif or .svg"),
-        (["--plot", "x.bmp"], "as .pdf, .png or .svg"),
+        (["--plot", "x.bmp"], "must end in .png or .pdf or .svg"),
         (["--over", "v=20:30:3", "--of", "locus", "--plot", "x.png"], "is not one of"),
     ],
 )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from yawdesign.output.mode_plots import mode_shape
 from yawdesign.output.plan_view import COLOURS, REST, Body, Corner, bodies, caption, find_mode, half_size, subtitle
 from yawdesign.problem import ProblemError
+from yawdesign.study.writing import write_whole
 
 if TYPE_CHECKING:
     from yawdesign.response.modes import Modes, NamedMode
@@ -61,13 +62,7 @@ def animate(result: "Modes", to: str | Path, *, mode: str | None = None) -> Path
     makers = {".gif": gif, ".svg": svg}
     if path.suffix.lower() not in makers:
         raise ProblemError(f"{path.name}: a mode is written as .gif or .svg")
-    content = makers[path.suffix.lower()](result, mode)
-    beside = path.with_name(path.name + ".part")
-    try:
-        beside.write_bytes(content)
-        beside.replace(path)
-    finally:
-        beside.unlink(missing_ok=True)
+    write_whole(path, makers[path.suffix.lower()](result, mode))
     return path
 
 

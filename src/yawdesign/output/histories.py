@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.problem import ProblemError
+from yawdesign.study.writing import write_whole
 
 if TYPE_CHECKING:
     from yawdesign.response.simulate import Simulation
@@ -43,7 +44,7 @@ def write_csv(result: "Simulation", path: Path) -> None:
     columns = _columns(result)
     text = io.StringIO()
     np.savetxt(text, np.stack(list(columns.values()), 1), "%.9g", ",", header=", ".join(columns), comments="")
-    _replace(path, text.getvalue().encode())
+    write_whole(path, text.getvalue().encode())
 
 
 def write_npz(result: "Simulation", path: Path) -> None:
@@ -52,22 +53,11 @@ def write_npz(result: "Simulation", path: Path) -> None:
 
     data = io.BytesIO()
     np.savez_compressed(data, **{name.split(" ")[0]: values for name, values in _columns(result).items()})
-    _replace(path, data.getvalue())
+    write_whole(path, data.getvalue())
 
 
 def write_picture(draw: Callable[[], Any], path: Path) -> None:
     """Write what a function draws, given that it returns its Axes."""
     data = io.BytesIO()
     draw().figure.savefig(data, format=path.suffix[1:].lower(), dpi=150)
-    _replace(path, data.getvalue())
-
-
-def _replace(path: Path, content: bytes) -> None:
-    beside = path.with_name(path.name + ".part")
-    try:
-        beside.write_bytes(content)
-        beside.replace(path)
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, str(path)) from None
-    finally:
-        beside.unlink(missing_ok=True)
+    write_whole(path, data.getvalue())

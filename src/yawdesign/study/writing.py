@@ -6,6 +6,12 @@ from pathlib import Path
 from typing import BinaryIO
 
 
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file that takes the place of `path` when it is whole; errors as in `whole_file`."""
+    with whole_file(path) as file:
+        file.write(content)
+
+
 @contextmanager
 def whole_file(path: Path) -> Iterator[BinaryIO]:
     """Give a file to write; it takes the place of `path` when it is whole, and a crash leaves the old one.

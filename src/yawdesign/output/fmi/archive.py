@@ -17,6 +17,7 @@ from yawdesign.output.fmi.variables import variables
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.result import Result
 from yawdesign.stability.verdict import given_damping
+from yawdesign.study.writing import write_whole
 
 REMEDY = "the FMU holds its C code only: before it runs it must be compiled, such as with `fmpy compile`"
 
@@ -80,7 +81,7 @@ def write_fmu(problem: Problem, path: str | Path, *, replace: bool = False) -> F
     texts = _texts(problem)
     library, message = _library(texts)
     place = f"binaries/{platform_name()}/{IDENTIFIER}{library_suffix()}"
-    _write(path, _archive({**texts, **({place: library} if library else {})}))
+    write_whole(path, _archive({**texts, **({place: library} if library else {})}))
     return Fmu(str(path), platform_name() if library else None, message)
 
 
@@ -130,15 +131,3 @@ def _archive(contents: Mapping[str, bytes]) -> bytes:
             entry.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
             archive.writestr(entry, content)
     return buffer.getvalue()
-
-
-def _write(path: Path, content: bytes) -> None:
-    """Write a file beside its place and rename it, so that no half of it is ever there."""
-    beside = path.with_name(path.name + ".part")
-    try:
-        beside.write_bytes(content)
-        beside.replace(path)
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, str(path)) from None
-    finally:
-        beside.unlink(missing_ok=True)
