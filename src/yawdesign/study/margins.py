@@ -15,6 +15,10 @@ Float = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 Complex = NDArray[np.complex128]
 
+ROWS = (
+    256  # points whose eigenvalues fit a cache, and an allocator that gives larger pieces back to the system each time
+)
+
 
 def margins(question: Question, block: Block) -> tuple[Float, Bools]:
     """Return the worst margin over all speeds at every point, and whether it passed the checks."""
@@ -45,9 +49,11 @@ def eigenvalues(question: Question, case: Block) -> Complex:
 def _agrees(question: Question, case: Block, s: Complex) -> Bools:
     """Return whether every eigenvalue is a root of the polynomial, and Routh's array counts as many unstable ones."""
     core = scale_variable(_core(question, case), 1 / TIME_UNIT)
+    parts = [slice(k, k + ROWS) for k in range(0, len(s), ROWS)]
     with np.errstate(all="ignore"):
-        exact = (backward_error(core, s) < EXACT).all(axis=1)
+        errors = [backward_error(tuple(a[part] for a in core), s[part]) for part in parts]
         unstable = count_undamped(s)
+    exact = (np.concatenate(errors) < EXACT).all(axis=1)
     count, doubts = kernels.unstable_roots(question.kind, question.equations, case.zeros)(case.values)
     return np.asarray(exact & (doubts == 0) & (count == unstable))
 
