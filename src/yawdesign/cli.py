@@ -216,9 +216,10 @@ def simulate(
 ) -> None:
     """Run the bogie over a track: RMS, peaks, whether amplitudes settle, and what its yaw damper has to do."""
     from yawdesign.output import histories
+    from yawdesign.output.plots import PICTURES, write_picture
 
     with _mistakes_shown():
-        files = [(csv, (".csv",)), (npz, (".npz",)), (plot, histories.PICTURES)]
+        files = [(csv, (".csv",)), (npz, (".npz",)), (plot, PICTURES)]
         to_csv, to_npz, to_plot = (path and histories.checked_ending(path, endings) for path, endings in files)
         problem = _read(file)
         with _progress() as progress:
@@ -241,7 +242,7 @@ def simulate(
         if to_plot:
             from yawdesign.output.response_plots import simulation
 
-            histories.write_picture(lambda: simulation(result, response=response), to_plot)
+            write_picture(simulation(result, response=response), to_plot)
         if to_csv:
             histories.write_csv(result, to_csv)
         if to_npz:
@@ -264,10 +265,11 @@ def modes(
 ) -> None:
     """Show all modes by name: frequency, damping, what takes part; follow them over speed or any parameter."""
     with _mistakes_shown():
-        from yawdesign.output import histories
+        from yawdesign.output.histories import checked_ending
+        from yawdesign.output.plots import PICTURES, write_picture
         from yawdesign.problem import ProblemError
 
-        to_plot = plot and histories.checked_ending(plot, histories.PICTURES)
+        to_plot = plot and checked_ending(plot, PICTURES)
         problem = _read(file)
         if over and (to or animate):
             raise ProblemError("--animate and --to show a mode at one place: leave out --over")
@@ -279,7 +281,7 @@ def modes(
             from yawdesign.output.plots import plot as draw
 
             options: dict[str, Any] = {"of": of} if over else {"mode": animate or None}
-            histories.write_picture(lambda: draw(result, **options), to_plot)
+            write_picture(draw(result, **options), to_plot)
         if to:
             import_module("yawdesign.output.animation").animate(result, to, mode=animate or None)
         _show(result, as_json, "followed_tables" if over else "modes_tables", "yawdesign.output.mode_tables")

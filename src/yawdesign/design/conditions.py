@@ -26,8 +26,3 @@ class Condition:
 def conditions(problem: Problem) -> tuple[Condition, ...]:
     """Return the conditions of a problem: its speed, or the speeds of its range."""
     return tuple(Condition(v) for v in problem.speeds)
-
-
-def model(problem: Problem) -> dict[str, str]:
-    """Return the keywords that choose the equations."""
-    return {"kind": problem.bogie.kind, "equations": problem.equations}

@@ -6,7 +6,6 @@ from typing import Any
 
 import casadi as ca
 
-from yawdesign.design.conditions import model
 from yawdesign.design.space import JOINTED, LEAST
 from yawdesign.problem import PARAMETERS, Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
@@ -79,7 +78,7 @@ class Setting:
         values = {key: None if value is None else float(value) for key, value in values.items()}
         wanted = set(values) if inputs is None else _known(inputs, values)
         load = None if problem.curve is None else problem.curve.load
-        return cls(values, tuple(key for key in values if key in wanted), model(problem), load, float(speeds[-1]))
+        return cls(values, tuple(key for key in values if key in wanted), problem.model, load, float(speeds[-1]))
 
     @property
     def bogie(self) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from functools import reduce
 import numpy as np
 
 from yawdesign.bogie.characteristic import characteristic
-from yawdesign.design.conditions import conditions, model
+from yawdesign.design.conditions import conditions
 from yawdesign.design.curving import curving_limit, rotational_resistance
 from yawdesign.problem import Problem
 from yawdesign.problem.result import Result
@@ -105,7 +105,7 @@ def design(problem: Problem) -> ForwardDesign:
     (90702.89, 2593442.982, 1046750)
     """
     p, cases = problem.bogie.parameters(), conditions(problem)
-    found = [critical_damping(case.applied(p), **model(problem)) for case in cases]
+    found = [critical_damping(case.applied(p), **problem.model) for case in cases]
     damped = factors_damped(problem)
     stable = reduce(intersect, [sets.stable_intervals for sets in found]) if damped else ()
     upper = None if problem.curve is None else float(curving_limit(p, problem.curve))
@@ -142,7 +142,7 @@ def intersect(left: Iterable[Interval], right: Iterable[Interval]) -> tuple[Inte
 
 def factors_damped(problem: Problem) -> bool:
     """Return whether the motors' own yaw is damped; no yaw damper of the bogie can help there."""
-    factors = characteristic({**problem.bogie.parameters(), "v": 1.0}, **model(problem)).factors
+    factors = characteristic({**problem.bogie.parameters(), "v": 1.0}, **problem.model).factors
     return not any(undamped_roots(p) for p in factors.values())
 
 
@@ -178,7 +178,7 @@ def _at_speed(x: CriticalValue, speed: float) -> Critical:
 
 def _is_stable(problem: Problem, C_s: float) -> bool:
     p = problem.bogie.parameters()
-    return all(stability_at(case.applied(p), C_s, **model(problem)).stable for case in conditions(problem))
+    return all(stability_at(case.applied(p), C_s, **problem.model).stable for case in conditions(problem))
 
 
 def _resistance(problem: Problem, C_s: float | None) -> float | None:
@@ -191,7 +191,7 @@ def _sensitivity(problem: Problem, found: list[CriticalDamping], C_sl: float | N
     for sets, case in zip(found, conditions(problem), strict=True):
         for x in sets.critical:
             if x.C_s == C_sl:
-                return sensitivity(case.applied(problem.bogie.parameters()), x, **model(problem))
+                return sensitivity(case.applied(problem.bogie.parameters()), x, **problem.model)
     return {}
 
 

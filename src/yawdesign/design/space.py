@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.bogie.characteristic import characteristic
-from yawdesign.design.conditions import Condition, conditions, model
+from yawdesign.design.conditions import Condition, conditions
 from yawdesign.design.curving import curving_limit, resistance_scale, resisting_moment
 from yawdesign.problem import Curve, Problem
 from yawdesign.stability.modes import MARGINS, core_eigenvalues
@@ -65,7 +65,7 @@ class Space:
     @cached_property
     def model(self) -> dict[str, str]:
         """The keywords that choose the equations."""
-        return model(self.problem)
+        return self.problem.model
 
     @cached_property
     def movable(self) -> tuple[str, ...]:

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign.design.conditions import model
 from yawdesign.design.functions import functions
 from yawdesign.design.states import state_names
 from yawdesign.problem import Problem, ProblemError
@@ -92,7 +91,7 @@ def state_space(problem: Problem) -> StateSpaceModel:
     """
     found = functions(problem, inputs=(), only=("state_matrix",))["state_matrix"]()
     p, C_s = problem.bogie.parameters(), float(problem.bogie.C_s or 0.0)
-    names = state_names({**p, "v": problem.speeds[0]}, C_s, model(problem))
+    names = state_names({**p, "v": problem.speeds[0]}, C_s, problem.model)
     matrices: dict[str, Any] = {name: np.array(found[name].full()) for name in "ABCD"}
     return StateSpaceModel(
         **matrices,

@@ -1,7 +1,6 @@
 """Time histories and pictures as files, written beside their place and renamed."""
 
 import io
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,8 +9,6 @@ from yawdesign.study.writing import write_whole
 
 if TYPE_CHECKING:
     from yawdesign.response.simulate import Simulation
-
-PICTURES = (".png", ".pdf", ".svg")
 
 
 def checked_ending(path: str, endings: tuple[str, ...]) -> Path:
@@ -53,11 +50,4 @@ def write_npz(result: "Simulation", path: Path) -> None:
 
     data = io.BytesIO()
     np.savez_compressed(data, **{name.split(" ")[0]: values for name, values in _columns(result).items()})
-    write_whole(path, data.getvalue())
-
-
-def write_picture(draw: Callable[[], Any], path: Path) -> None:
-    """Write what a function draws, given that it returns its Axes."""
-    data = io.BytesIO()
-    draw().figure.savefig(data, format=path.suffix[1:].lower(), dpi=150)
     write_whole(path, data.getvalue())

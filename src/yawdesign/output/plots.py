@@ -1,12 +1,18 @@
 """Pictures of results. Every function draws into Matplotlib axes and returns them; nothing is computed or shown."""
 
+import io
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.problem import ProblemError
+from yawdesign.study.writing import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+PICTURES = (".png", ".pdf", ".svg")
+DOTS_PER_INCH = 150
 
 # What draws which kind of result, as module and function.
 DRAWN_BY: dict[str, tuple[str, str]] = {
@@ -49,6 +55,14 @@ def plot(result: Any, ax: "Axes | None" = None, **options: Any) -> "Axes":
     home, name = DRAWN_BY[kind]
     axes: Axes = getattr(import_module(home), name)(result, ax=ax, **options)
     return axes
+
+
+def write_picture(axes: "Axes", path: Path) -> None:
+    """Write the figure of some axes to a file, as a whole or not at all; the ending, one of `PICTURES`, tells how."""
+    content = io.BytesIO()
+    figure: Any = axes.get_figure(root=True)
+    figure.savefig(content, format=path.suffix[1:].lower(), dpi=DOTS_PER_INCH)
+    write_whole(path, content.getvalue())
 
 
 def new_axes(ax: "Axes | None") -> "Axes":

@@ -1,20 +1,15 @@
 """Files that a sweep leaves behind, and what becomes of it when one cannot be written."""
 
-import io
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from tempfile import gettempdir
 
-from yawdesign.output.plots import plot
+from yawdesign.output.plots import PICTURES, write_picture
+from yawdesign.output.plots import plot as draw
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.study.result import Sweep
-from yawdesign.study.writing import whole_file
-
-PICTURES = (".png", ".pdf", ".svg")
-DOTS_PER_INCH = 150
 
 
 @dataclass(frozen=True)
@@ -68,7 +63,7 @@ class Outputs:
         for path, write in (
             (self.csv, sweep.to_csv),
             (self.npz, sweep.to_npz),
-            (self.picture, partial(write_picture, sweep)),
+            (self.picture, lambda path: write_picture(draw(sweep), path)),
         ):
             try:
                 if path is not None:
@@ -87,14 +82,3 @@ class Outputs:
                 continue
             return f"error: {reason}\nAll that is finished is in {path}: repeat the command with --resume {path}"
         return f"error: {reason}\nIt could not be kept in {self.kept} either: make room"
-
-
-def write_picture(sweep: Sweep, path: Path) -> None:
-    """Draw a sweep into a file."""
-    content = io.BytesIO()
-    figure = plot(sweep).get_figure(root=True)
-    if figure is None:
-        raise ProblemError("the picture has no figure")
-    figure.savefig(content, format=path.suffix[1:].lower(), dpi=DOTS_PER_INCH)
-    with whole_file(path) as file:
-        file.write(content.getvalue())

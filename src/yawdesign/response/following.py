@@ -16,7 +16,7 @@ from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import Parameter
 from yawdesign.response.linking import LOST, Place
-from yawdesign.response.modes import model_of, name_roots, parameters_at
+from yawdesign.response.modes import name_roots, parameters_at
 from yawdesign.response.names import groups_of, normalised, shares, unique_names
 from yawdesign.response.spectrum import Index, Motion, motion, parts, spectrum
 from yawdesign.response.walking import Encounter, walk
@@ -199,7 +199,7 @@ def _values(key: str, row: Parameter, given: Any) -> Float:
 
 def _matrices(problem: Problem, name: str) -> Any:
     """Return a function that returns, and remembers, the motion at a value of the axis."""
-    p, model = parameters_at(problem, problem.speeds[0]), model_of(problem)
+    p, model = parameters_at(problem, problem.speeds[0]), problem.model
     C_s = None if name == "C_s" else given_damping(problem)
 
     @cache
@@ -286,5 +286,5 @@ def _residual(problem: Problem, name: str, values: Float, s: Complex) -> float:
     column = values[:, None]
     p = {**parameters_at(problem, problem.speeds[0]), name: column}
     C_s = column if name == "C_s" else given_damping(problem)
-    polynomial = characteristic(p, **model_of(problem)).full(C_s)
+    polynomial = characteristic(p, **problem.model).full(C_s)
     return float(np.nanmax(backward_error(polynomial, s)))

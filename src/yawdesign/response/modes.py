@@ -95,10 +95,10 @@ def modes(problem: Problem) -> Modes:
     ('wheelset hunting 1', 2.5535, 0.07113)
     """
     verdict = stability(problem)
-    p, model = parameters_at(problem, verdict.speed), model_of(problem)
+    p, model = parameters_at(problem, verdict.speed), problem.model
     found = modes_at(p, given_damping(problem), **model)
     exact = all(mode.residual < EXACT for mode in found)
-    bogie = {name: float(value) for name, value in problem.bogie.parameters().items()}
+    bogie = {name: value for name, value in p.items() if name != "v"}
     return Modes(
         modes=found,
         stable=verdict.stable,
@@ -108,11 +108,6 @@ def modes(problem: Problem) -> Modes:
         parameters=bogie,
         checked=verdict.checked and exact,
     )
-
-
-def model_of(problem: Problem) -> dict[str, str]:
-    """Return the kind of the bogie and of its equations, as the functions of the physics take them."""
-    return {"kind": problem.bogie.kind, "equations": problem.equations}
 
 
 def parameters_at(problem: Problem, v: float) -> dict[str, float]:

@@ -79,7 +79,7 @@ class System:
 def system_at(problem: Problem, v: float) -> System:
     """Return the bogie of a problem at a speed [m/s]; an error if it has no C_s."""
     p = {**problem.bogie.parameters(), "v": v, "C_s": given_damping(problem)}
-    model = {"kind": problem.bogie.kind, "equations": problem.equations}
+    model = problem.model
     elements = physical(bogie(p, **model))
     space = StateSpace(elements)
     A = np.asarray(space.fill(np.zeros((space.size, space.size))))

@@ -112,8 +112,7 @@ def stability(problem: Problem) -> Stability:
     """
     p, C_s = problem.bogie.parameters(), given_damping(problem)
     variables = problem.design.variables
-    model = {"kind": problem.bogie.kind, "equations": problem.equations}
-    results = [stability_at({**p, "v": v}, C_s, variables, **model) for v in problem.speeds]
+    results = [stability_at({**p, "v": v}, C_s, variables, **problem.model) for v in problem.speeds]
     return min(results, key=lambda result: (result.stable, result.decay_rate))
 
 

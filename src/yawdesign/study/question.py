@@ -22,6 +22,7 @@ QUANTITIES = {
 }
 # What must be known at every point, beside the parameters.
 NEEDS_DAMPING = ("stable", "decay_rate", "damping_ratio", "critical_speed")
+SEARCHED = (10 / 3.6, 600 / 3.6)  # for critical speeds, where the problem gives no range [m/s]
 
 
 @dataclass(frozen=True)
@@ -53,8 +54,9 @@ class Question:
     @classmethod
     def about(cls, problem: Problem, of: str) -> "Question":
         """Return the question that a problem asks."""
-        variables = tuple(problem.design.variables)
-        return cls(of, problem.bogie.kind, problem.equations, tuple(problem.speeds), variables, problem.curve)
+        speeds = tuple(map(float, problem.speeds))
+        searched = SEARCHED if of == "critical_speed" and len(speeds) == 1 else speeds
+        return cls(of, problem.bogie.kind, problem.equations, searched, tuple(problem.design.variables), problem.curve)
 
     @property
     def model(self) -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import prod
 from typing import Any
 
@@ -15,7 +15,6 @@ from yawdesign.problem.running import SpeedRange
 from yawdesign.problem.table import as_choice
 from yawdesign.study.axes import CREEP, DERIVED, ROWS, Axis, applied, read_axis, shape
 from yawdesign.study.question import NEEDS_DAMPING, QUANTITIES, Question
-from yawdesign.study.speeds import SEARCHED
 
 MOST_AXES = 3
 HOLDS = ("C_m", "xi_m")
@@ -88,7 +87,7 @@ def request(problem: Problem, of: str, axes: Iterable[tuple[str, Any]], hold: st
         _check_hold(problem, hold, names)
     mistakes.found += _contradictions(names).found + _unanswerable(problem, quantity, names).found
     mistakes.report()
-    task = Task(_question(problem, quantity), _parameters(problem, quantity), hold or "C_m")
+    task = Task(Question.about(problem, quantity), _parameters(problem, quantity), hold or "C_m")
     _check_derived(task, read)
     _check_memory(quantity, read)
     return Request(problem, of, task, read)
@@ -97,14 +96,6 @@ def request(problem: Problem, of: str, axes: Iterable[tuple[str, Any]], hold: st
 def _quantity(problem: Problem, of: str) -> str:
     as_choice(of, (*QUANTITIES, "margin"))
     return problem.design.objective if of == "margin" else of
-
-
-def _question(problem: Problem, quantity: str) -> Question:
-    question = Question.about(problem, quantity)
-    speeds = question.speeds
-    if quantity == "critical_speed" and len(speeds) == 1:
-        speeds = SEARCHED
-    return replace(question, speeds=tuple(map(float, speeds)))
 
 
 def _parameters(problem: Problem, quantity: str) -> dict[str, float]:

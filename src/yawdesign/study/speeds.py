@@ -20,7 +20,6 @@ from yawdesign.study.question import Answers, Question
 Float = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
-SEARCHED = (10 / 3.6, 600 / 3.6)  # m/s, where the problem gives no range
 SPEEDS = 240  # between which changes are looked for
 TOGETHER = 8192  # points that are counted at once
 HALVINGS = 34
@@ -29,7 +28,7 @@ ON_AXIS = 1e-6  # largest |Re| of the root at a critical speed, relative to max(
 
 def critical_speeds(question: Question, block: Block) -> Answers:
     """Return all speeds at which the number of unstable roots of the coupled motion changes."""
-    v = np.linspace(*_range(question), SPEEDS + 1)
+    v = np.linspace(question.speeds[0], question.speeds[-1], SPEEDS + 1)
     counts, mended = _counts(question, block, v)
     owner, cell = np.nonzero(np.diff(counts, axis=1))
     found = _changes(question, block, owner, v[cell], v[cell + 1], counts[owner, cell], counts[owner, cell + 1])
@@ -48,12 +47,6 @@ def critical_speeds(question: Question, block: Block) -> Answers:
         "count": rows.count,
     }
     return Answers(columns, mended, unverified)
-
-
-def _range(question: Question) -> tuple[float, float]:
-    """Return the speeds between which the problem asks, or those between which anybody would."""
-    low, high = question.speeds[0], question.speeds[-1]
-    return (low, high) if low < high else SEARCHED
 
 
 def _counts(question: Question, block: Block, v: Float) -> tuple[Float, NDArray[np.bool_]]:

@@ -9,7 +9,6 @@ from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from yawdesign.design.conditions import model
 from yawdesign.design.motion import equations_of_motion, motion_source
 from yawdesign.output.fmi.compiler import CannotCompileError, compile_library, library_suffix, platform_name
 from yawdesign.output.fmi.description import IDENTIFIER, build_description, header, model_description
@@ -88,7 +87,7 @@ def write_fmu(problem: Problem, path: str | Path, *, replace: bool = False) -> F
 def _texts(problem: Problem) -> dict[str, bytes]:
     """Return the files of the FMU, but for the library."""
     p = {**problem.bogie.parameters(), "C_s": given_damping(problem), "v": max(problem.speeds)}
-    motion = equations_of_motion(p, model(problem))
+    motion = equations_of_motion(p, problem.model)
     table = variables(motion, p)
     source, sizes = motion_source(motion)
     frame = files("yawdesign.output.fmi").joinpath("fmi3.c").read_text(encoding="utf-8")
