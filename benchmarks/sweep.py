@@ -18,13 +18,13 @@ from scipy.optimize import brentq
 
 import yawdesign as yd
 from yawdesign.bogie.characteristic import characteristic
-from yawdesign.bogie.polynomials import add, multiply, scale, scale_variable
+from yawdesign.bogie.polynomials import add, even_odd, multiply, scale, scale_variable
 from yawdesign.stability.certificate import certify
-from yawdesign.stability.critical import critical_damping, even_odd
+from yawdesign.stability.critical import critical_damping
 from yawdesign.stability.graphs import critical_damping as critical_function
 from yawdesign.stability.graphs import parameter_names
+from yawdesign.stability.many import compiled, kernels
 from yawdesign.stability.modes import core_matrix, state_matrix
-from yawdesign.study import compiled, kernels
 from yawdesign.study.points import evaluate
 from yawdesign.study.question import Question
 

@@ -8,8 +8,11 @@ import pytest
 
 from yawdesign.bogie.characteristic import characteristic
 from yawdesign.stability.certificate import certify
-from yawdesign.stability.critical import count_unstable, critical_damping
+from yawdesign.stability.critical import critical_damping
+from yawdesign.stability.many.block import Block
+from yawdesign.stability.many.critical_values import critical_field
 from yawdesign.stability.modes import core_matrix
+from yawdesign.stability.routh import count_unstable
 
 
 def test_reference_bogies(case, of_case):
@@ -75,6 +78,92 @@ def test_random_bogies_against_certificates(random_bogies, n, spread, seed):
         assert found.checked
         values += len(found.critical)
     assert values >= n / 5  # a test of bogies without critical values would be none
+
+
+# Nearly undamped motions put two crossings close together in frequency and decades apart in C_s.
+PRINTED, RECIPROCAL = ({"kind": "power", "equations": equations} for equations in ("as-printed", "reciprocal"))
+HIDDEN = {
+    "one below and one above the rest": (
+        PRINTED,
+        {"C_m": 0.011, "a_0": 0.51, "lambda": 0.22},
+        [180563.4206, 450238.0009, 1560285.5941, 19362812.1937],
+        (6, 4, 2, 0, 2),
+    ),
+    "a stable island": (
+        RECIPROCAL,
+        {"K_1y": 3.1e6, "K_m": 3.3e5, "K_dm": 97e6, "C_m": 0.39, "a": 1.6, "b_3": 0.56, "r": 0.26, "lambda": 0.052}
+        | {"f_11": 21e6, "f_22": 4.8e6},
+        [1672392.968, 4769439.348],
+        (2, 0, 2),
+    ),
+}
+
+
+def asked_both_ways(p, model):
+    """Return critical values and counts of the single question and of a sweep's, which must say they are checked."""
+    one = critical_damping(p, **model)
+    assert one.checked
+    field = critical_field(Block(p, 1), **model)
+    assert not field.unverified.any()
+    return [([x.C_s for x in one.critical], one.unstable_roots), (field.values_at(0)[0], field.counts_at(0))]
+
+
+@pytest.mark.parametrize("name", HIDDEN)
+def test_no_critical_value_is_missed(table1, name):
+    model, changes, values, counts = HIDDEN[name]
+    for found, unstable in asked_both_ways({**table1, **changes}, model):
+        assert found == pytest.approx(values, rel=1e-9)
+        assert unstable == counts
+
+
+def test_the_counts_hold_towards_zero_and_infinity(table1):
+    model, changes, _, counts = HIDDEN["one below and one above the rest"]
+    c = characteristic({**table1, **changes}, **model)
+    assert count_unstable(c.core(1e-30)) == counts[0]
+    assert count_unstable(c.core(5e7)) == count_unstable(c.core(1e40)) == counts[-1]
+
+
+def test_a_fold(table1):
+    # Two of the three values are 5.6e-6 of themselves apart.
+    p = {**table1, "K_m": 737832.4535008409}
+    proved = certify(p, **PRINTED)
+    for found, unstable in asked_both_ways(p, PRINTED):
+        assert len(found) == 3
+        assert found[2] / found[1] - 1 == pytest.approx(5.83e-6, rel=1e-2)
+        assert found == pytest.approx([x.C_s for x in proved.critical], rel=1e-9)
+        assert unstable == proved.unstable_roots == (2, 0, 2, 0)
+
+
+@pytest.mark.parametrize("apart", [1e-3, 1e-6, 1e-9, 1e-12])
+def test_both_sides_of_a_fold(table1, apart):
+    # The fold over K_m lies where the two values above meet; on the one side are three values, on the other one.
+    fold = 737832.4535000349
+    for K_m in (fold * (1 - apart), fold * (1 + apart)):
+        p = {**table1, "K_m": K_m}
+        proved = certify(p, **PRINTED)
+        for found, unstable in asked_both_ways(p, PRINTED):
+            assert found == pytest.approx([x.C_s for x in proved.critical], rel=1e-8)
+            assert unstable == proved.unstable_roots
+
+
+@pytest.mark.parametrize(
+    ("name", "which", "end"),
+    [("a", 18, 0), ("K_m", 44, 0), ("lambda", 37, 0), ("a", 19, -1), ("lambda", 7, -1), ("lambda", 21, -1)],
+)
+def test_values_far_outside_what_is_allowed(random_bogies, name, which, end):
+    # Where the count towards 0 or infinity changes over a parameter, a critical value runs off to there.
+    p, model = list(random_bogies(which + 1, seed=90))[which]
+    low, high = p[name], 1.5 * p[name]
+    below = critical_damping({**p, name: low}, **model).unstable_roots[end]
+    for _ in range(24):
+        middle = (low + high) / 2
+        found = critical_damping({**p, name: middle}, **model)
+        low, high = (middle, high) if found.unstable_roots[end] == below else (low, middle)
+    proved = certify({**p, name: middle}, **model)
+    assert found.checked
+    assert found.unstable_roots == proved.unstable_roots
+    assert [x.C_s for x in found.critical] == pytest.approx([x.C_s for x in proved.critical], rel=1e-8)
+    assert any(x.C_s > 1e13 or x.C_s < 1 for x in found.critical)
 
 
 def test_intervals_and_what_a_value_makes_of_the_bogie(random_bogies):

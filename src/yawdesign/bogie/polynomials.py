@@ -78,6 +78,17 @@ def trim(p: Polynomial, is_zero: Callable[[Number], bool] = lambda a: bool(a == 
     return p[:end]
 
 
+def even_odd(p: Polynomial) -> tuple[Polynomial, Polynomial]:
+    """Return the even part E(x) and the odd part O(x) of p(j w) = E(x) + j w O(x), x = w^2."""
+    even, odd = (tuple(times((-1) ** k, a) for k, a in enumerate(half)) for half in (p[::2], p[1::2]))
+    return even, odd
+
+
+def derivative(p: Polynomial) -> Polynomial:
+    """Return dp/ds."""
+    return tuple(times(k, a) for k, a in enumerate(p))[1:]
+
+
 def scale_variable(p: Polynomial, unit: Number) -> Polynomial:
     """Return p(unit * s): with unit = 100 rad/s the coefficients of a bogie span 1e10 instead of 1e46."""
     out, power = [], 1

@@ -13,7 +13,7 @@ from itertools import cycle, pairwise
 from typing import Any
 
 from yawdesign.bogie.characteristic import characteristic, paper_coefficients
-from yawdesign.bogie.polynomials import Polynomial, add, evaluate, multiply, scale
+from yawdesign.bogie.polynomials import Polynomial, add, evaluate, even_odd, multiply, scale, trim
 from yawdesign.bogie.vehicles import Parameters
 from yawdesign.problem import exact
 
@@ -90,7 +90,7 @@ def critical_values(p: Parameters, *, kind: str = "power", equations: str = "rec
     ['90702.889779 at 23.154737 rad/s']
     """
     c = characteristic(_exact(p), kind=kind, equations=equations)
-    (even_a, odd_a), (even_b, odd_b) = _on_axis(c.A), _on_axis(c.B)
+    (even_a, odd_a), (even_b, odd_b) = even_odd(c.A), even_odd(c.B)
     resultant = _flint_polynomial(add(multiply(even_b, odd_a), scale(multiply(even_a, odd_b), -1)))
     parts = (even_a, even_b, odd_a, odd_b)
     return tuple(sorted(_at_the_precision_needed(_solutions, resultant, *parts), key=lambda x: x.C_s))
@@ -128,7 +128,7 @@ def unstable_roots(p: Parameters, C_s: Fraction | float, *, kind: str = "power",
     """
     core = characteristic(_exact(p), kind=kind, equations=equations).core(_rational(C_s))
     # p(j w) / j^n = U(w) - j V(w): the chain of U and V counts how often the argument turns as w goes along the axis.
-    down = [a * sign for a, sign in zip(reversed(_trimmed(core)), cycle((1, 1, -1, -1)), strict=False)]
+    down = [a * sign for a, sign in zip(reversed(trim(core)), cycle((1, 1, -1, -1)), strict=False)]
     upper = _flint_polynomial(tuple(a if k % 2 == 0 else 0 for k, a in enumerate(down))[::-1])
     lower = _flint_polynomial(tuple(a if k % 2 else 0 for k, a in enumerate(down))[::-1])
     chain = [upper, lower]
@@ -265,17 +265,6 @@ def _between(values: Sequence[float]) -> list[float]:
     if not values:
         return [1.0e5]
     return [values[0] / 2, *((a + b) / 2 for a, b in pairwise(values)), 2 * values[-1]]
-
-
-def _on_axis(p: Polynomial) -> tuple[Polynomial, Polynomial]:
-    """Return E(x) and O(x) of p(j w) = E(x) + j w O(x), x = w^2."""
-    even, odd = (tuple(a * (-1) ** k for k, a in enumerate(half)) for half in (p[::2], p[1::2]))
-    return even, odd
-
-
-def _trimmed(p: Polynomial) -> Polynomial:
-    end = max((k + 1 for k, a in enumerate(p) if a != 0), default=0)
-    return p[:end]
 
 
 def _flint_polynomial(p: Polynomial) -> Any:

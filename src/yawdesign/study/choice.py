@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.design.forward import GOLDEN, UNDAMPED
-from yawdesign.study.critical import CriticalField
+from yawdesign.stability.many.critical_values import CriticalField
 
 Float = NDArray[np.float64]
 Bools = NDArray[np.bool_]

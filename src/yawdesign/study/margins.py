@@ -4,11 +4,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.bogie.polynomials import Polynomial, scale_variable
+from yawdesign.stability.many import kernels
+from yawdesign.stability.many.block import Block
 from yawdesign.stability.modes import MARGINS, backward_error, core_matrix, count_undamped
 from yawdesign.stability.routh import TIME_UNIT
 from yawdesign.stability.verdict import EXACT, fixed_factors
-from yawdesign.study import kernels
-from yawdesign.study.block import Block
 from yawdesign.study.question import Question
 
 Float = NDArray[np.float64]

@@ -3,17 +3,17 @@
 import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.design.curving import curving_limit, rotational_resistance
-from yawdesign.study import kernels, thorough
-from yawdesign.study.block import Block
+from yawdesign.stability.many import kernels
+from yawdesign.stability.many.block import Block
+from yawdesign.stability.many.critical_values import CriticalField, critical_field
+from yawdesign.study import thorough
 from yawdesign.study.choice import choose
-from yawdesign.study.critical import CriticalField, critical_field
 from yawdesign.study.margins import margins
 from yawdesign.study.question import Answers, Question
 from yawdesign.study.speeds import critical_speeds
@@ -81,43 +81,28 @@ def _mended(question: Question, block: Block, values: NDArray[Any], doubtful: Bo
     return Answers({question.of: values}, doubtful, unverified)
 
 
-@dataclass(frozen=True)
-class _Checked:
-    """Critical values of a block at one speed, with what became of the points that failed a check."""
-
-    field: CriticalField
-    recomputed: Bools
-    unverified: Bools
-
-
-def _checked_field(question: Question, case: Block) -> _Checked:
-    field = critical_field(case, kind=question.kind, equations=question.equations)
-    failed = ~field.passed
-    found = {int(k): thorough.critical(question, case.point(k)) for k in np.flatnonzero(failed)}
-    unverified = np.zeros_like(failed)
-    unverified[[k for k, sets in found.items() if not sets.checked]] = True
-    return _Checked(field.with_rows(found) if found else field, failed, unverified)
+def _field(question: Question, case: Block) -> CriticalField:
+    return critical_field(case, kind=question.kind, equations=question.equations)
 
 
 def _critical(question: Question, block: Block) -> Answers:
-    checked = _checked_field(question, block.cases(question.speeds)[0])
-    field = checked.field
+    field = _field(question, block.cases(question.speeds)[0])
     columns = {
         "critical": field.critical,
         "omega": field.omega,
         "unstable_roots": field.unstable_roots,
         "count": np.sum(~np.isnan(field.critical), axis=1),
     }
-    return Answers(columns, checked.recomputed, checked.unverified)
+    return Answers(columns, field.recomputed, field.unverified)
 
 
 def _design(question: Question, block: Block) -> Answers:
-    checked = [_checked_field(question, case) for case in block.cases(question.speeds)]
-    recomputed = np.any([x.recomputed for x in checked], axis=0)
-    unverified = np.any([x.unverified for x in checked], axis=0)
+    fields = [_field(question, case) for case in block.cases(question.speeds)]
+    recomputed = np.any([x.recomputed for x in fields], axis=0)
+    unverified = np.any([x.unverified for x in fields], axis=0)
     p, curve = block.values, question.curve
     upper = np.full(block.size, np.inf if curve is None else curving_limit(p, curve))
-    choice = choose([x.field for x in checked], upper, _damped(question, block))
+    choice = choose(fields, upper, _damped(question, block))
     status = np.where(unverified, "unverified", choice.status)
     C_sl = np.where(unverified, np.nan, choice.C_sl)
     if question.of == "C_sl":

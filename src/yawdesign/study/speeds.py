@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from yawdesign.stability.many import kernels
+from yawdesign.stability.many.block import Block
+from yawdesign.stability.many.critical_values import Rows
 from yawdesign.stability.modes import count_undamped
-from yawdesign.study import kernels
-from yawdesign.study.block import Block
-from yawdesign.study.critical import Rows
 from yawdesign.study.margins import eigenvalues
 from yawdesign.study.question import Answers, Question
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 
-from yawdesign.stability.critical import CriticalDamping, critical_damping
 from yawdesign.stability.verdict import stability_at
 from yawdesign.study.question import Question
 
@@ -14,8 +13,3 @@ def margin(question: Question, p: Point) -> tuple[float | bool, bool]:
     cases = [p["v"]] if "v" in p else question.speeds
     found = [stability_at({**p, "v": v}, p["C_s"], question.variables, **question.model) for v in cases]
     return min(getattr(x, question.of) for x in found), all(x.checked for x in found)
-
-
-def critical(question: Question, p: Point) -> CriticalDamping:
-    """Return all critical values at one point and one speed."""
-    return critical_damping({name: x for name, x in p.items() if name != "C_s"}, **question.model)

@@ -8,9 +8,9 @@ import pytest
 
 from yawdesign.bogie.characteristic import characteristic
 from yawdesign.stability.graphs import routh_column
+from yawdesign.stability.many import compiled, kernels, tape
+from yawdesign.stability.many.tape import Tape
 from yawdesign.stability.routh import count_unstable
-from yawdesign.study import compiled, kernels, tape
-from yawdesign.study.tape import Tape
 
 
 @pytest.fixture(autouse=True)

@@ -14,9 +14,9 @@ import casadi as ca
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign.study import compiled
-from yawdesign.study.compiled import Run
-from yawdesign.study.program import Program, Step
+from yawdesign.stability.many import compiled
+from yawdesign.stability.many.compiled import Run
+from yawdesign.stability.many.program import Program, Step
 
 Float = NDArray[np.float64]
 BLOCK = 8192  # points; long enough that NumPy's calls cost little, and a row still fits the innermost caches

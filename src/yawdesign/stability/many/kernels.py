@@ -7,11 +7,21 @@ from itertools import pairwise
 import casadi as ca
 
 from yawdesign.bogie.characteristic import Characteristic, characteristic
-from yawdesign.bogie.polynomials import Number, Polynomial, add, multiply, plus, scale, scale_variable, times, trim
+from yawdesign.bogie.polynomials import (
+    Number,
+    Polynomial,
+    add,
+    even_odd,
+    multiply,
+    plus,
+    scale,
+    scale_variable,
+    times,
+    trim,
+)
 from yawdesign.problem.parameters import parameter_keys
-from yawdesign.stability.critical import even_odd
+from yawdesign.stability.many.tape import Tape
 from yawdesign.stability.routh import TIME_UNIT, routh_rows
-from yawdesign.study.tape import Tape
 
 # A leading entry of Routh's array that is left over from a subtraction of numbers this much larger is doubted. With 16
 # digits, 9 are then left. Of the million random bogies of benchmarks/sweep.py one is doubted, and none is wrong.

@@ -1,0 +1,173 @@
+"""Critical values of random bogies against exact rationals: how many are wrong, missed, invented or unverified.
+
+Run: python benchmarks/exact.py [--wide N] [--undamped N] [--folds N] [--seeds 1 2 3]
+
+Three kinds of bogies around Table I, of all equations: every parameter times or divided by up to ten, some of them zero;
+nearly undamped ones; and bogies at a fold, where two critical values are about to meet and vanish. Each is asked both
+ways: alone (`critical_damping`, what `design` uses) and among many (`evaluate`, what `sweep` uses). The exact answer is that of
+`certify`: proved roots of rational polynomials and Sturm chains. A value is wrong if it is off by more than 1e-8 of itself, or a number of
+unstable roots differs; it counts against an answer only where that says "checked".
+"""
+
+import argparse
+import math
+import sys
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+import yawdesign as yd
+from yawdesign.stability.certificate import Certificate, certify
+from yawdesign.stability.critical import critical_damping
+from yawdesign.study.points import evaluate
+from yawdesign.study.question import Question
+
+MODELS = (("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal"))
+TABLE_1 = {name: float(x) for name, x in yd.table1().bogie.parameters().items() if name != "C_s" and x is not None}
+TRAILER = {
+    name: float(x)
+    for name, x in yd.table1(kind="trailer").bogie.parameters().items()
+    if name != "C_s" and x is not None
+}
+MAY_BE_ZERO = ("C_m", "C_t", "b_0", "W", "K_2x", "K_2y", "C_mphi", "K_mphi")
+LOW_DAMPING = ("C_m", "C_t", "C_mphi")
+VERDICTS = ("right", "wrong", "missed", "invented", "unverified")
+CLOSE = 1e-8
+
+Bogie = tuple[dict[str, float], dict[str, str]]
+
+
+def random_bogie(rng: np.random.Generator, spread: float) -> Bogie:
+    kind, equations = MODELS[rng.integers(len(MODELS))]
+    base = TRAILER if kind == "trailer" else TABLE_1
+    p = {name: x * spread ** rng.uniform(-1, 1) for name, x in base.items()}
+    return {**p, "v": rng.uniform(100, 450) / 3.6}, {"kind": kind, "equations": equations}
+
+
+def wide(rng: np.random.Generator) -> Iterator[Bogie]:
+    while True:
+        p, model = random_bogie(rng, (1.5, 3.0, 10.0)[rng.integers(3)])
+        zeros = [name for name in MAY_BE_ZERO if name in p and rng.random() < 0.02]
+        yield {**p, **dict.fromkeys(zeros, 0.0)}, model
+
+
+def undamped(rng: np.random.Generator) -> Iterator[Bogie]:
+    while True:
+        p, model = random_bogie(rng, 3.0)
+        low = {name: p[name] * 10 ** rng.uniform(-8, -1) for name in LOW_DAMPING if name in p and rng.random() < 0.7}
+        yield {**p, **low}, model
+
+
+def folds(rng: np.random.Generator) -> Iterator[Bogie]:
+    """Yield bogies at which two critical values are apart by anything between rounding and a hundredth."""
+    while True:
+        p, model = random_bogie(rng, 3.0)
+        name = rng.choice([x for x in p if x not in ("W", "b_0")])
+        values = p[name] * np.geomspace(0.5, 2, 40)
+        counts = _counts({**p, name: values}, model)
+        for k in np.flatnonzero(np.abs(np.diff(counts)) == 2)[:2]:
+            distance = 10 ** rng.uniform(-16, -4)
+            fold = _fold(p, name, (values[k], values[k + 1]), counts[k], model, distance / 4)
+            more = math.copysign(1.0, (values[k] - values[k + 1]) * (counts[k] - counts[k + 1]))
+            near = fold * (1 + more * distance)
+            found = critical_damping({**p, name: near}, **model).critical
+            if any(b.C_s < 1.1 * a.C_s for a, b in pairwise(found)):
+                yield {**p, name: float(near)}, model
+
+
+def _fold(
+    p: dict[str, float], name: str, ends: tuple[float, float], count: int, model: dict[str, str], close: float
+) -> float:
+    """Return where the number of critical values changes, to a relative distance or rounding."""
+    low, high = ends
+    while abs(high - low) > max(close, 3e-16) * abs(low):
+        middle = (low + high) / 2
+        low, high = (middle, high) if _counts({**p, name: middle}, model)[0] == count else (low, middle)
+    return (low + high) / 2
+
+
+def _counts(p: dict[str, Any], model: dict[str, str]) -> np.ndarray:
+    return np.asarray(_together(p, model).columns["count"])
+
+
+def _together(p: dict[str, Any], model: dict[str, str]) -> Any:
+    return evaluate(Question("critical", model["kind"], model["equations"], (1.0,)), p)
+
+
+KINDS = {"wide": wide, "nearly undamped": undamped, "at a fold": folds}
+
+
+def alone(bogies: Sequence[Bogie]) -> list[tuple[list[float], list[int], bool]]:
+    answers = [critical_damping(p, **model) for p, model in bogies]
+    return [([x.C_s for x in a.critical], list(a.unstable_roots), a.checked) for a in answers]
+
+
+def among_many(bogies: Sequence[Bogie]) -> list[tuple[list[float], list[int], bool]]:
+    """Return the same from arrays, those of one model together."""
+    answers: dict[int, tuple[list[float], list[int], bool]] = {}
+    for kind, equations in MODELS:
+        chosen = [k for k, (_, m) in enumerate(bogies) if (m["kind"], m["equations"]) == (kind, equations)]
+        if not chosen:
+            continue
+        p = {name: np.array([bogies[k][0][name] for k in chosen]) for name in bogies[chosen[0]][0]}
+        # A parameter that is zero at some points only has no polynomial of lower degree: those points by themselves.
+        zero = np.any([x == 0 for x in p.values()], axis=0)
+        for part in [~zero, *(np.arange(len(chosen)) == k for k in np.flatnonzero(zero))]:
+            if part.any():
+                found = _together({name: x[part] for name, x in p.items()}, {"kind": kind, "equations": equations})
+                for row, k in enumerate(np.array(chosen)[part]):
+                    answers[int(k)] = _row(found, row)
+    return [answers[k] for k in range(len(bogies))]
+
+
+def _row(found: Any, k: int) -> tuple[list[float], list[int], bool]:
+    values, counts = (found.columns[name][k] for name in ("critical", "unstable_roots"))
+    return values[~np.isnan(values)].tolist(), counts[~np.isnan(counts)].astype(int).tolist(), not found.unverified[k]
+
+
+def judged(answer: tuple[list[float], list[int], bool], exact: Certificate) -> str:
+    values, counts, checked = answer
+    proved = [x.C_s for x in exact.critical]
+    if not checked:
+        return "unverified"
+    if len(values) != len(proved):
+        return "missed" if len(values) < len(proved) else "invented"
+    close = all(math.isclose(a, b, rel_tol=CLOSE) for a, b in zip(values, proved, strict=True))
+    return "right" if close and counts == list(exact.unstable_roots) else "wrong"
+
+
+def campaign(kind: str, n: int, seed: int) -> dict[str, Counter[str]]:
+    """Return how many of n bogies of a kind are judged how, asked alone and among many."""
+    source = KINDS[kind](np.random.default_rng([seed, list(KINDS).index(kind)]))
+    bogies = [next(source) for _ in range(n)]
+    exact = [certify(p, **model) for p, model in bogies]
+    ways = {"alone": alone(bogies), "among many": among_many(bogies)}
+    return {way: Counter(judged(a, e) for a, e in zip(answers, exact, strict=True)) for way, answers in ways.items()}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    for kind, n in (("wide", 3000), ("undamped", 1000), ("folds", 500)):
+        parser.add_argument(f"--{kind}", type=int, default=n, help="bogies for each seed")
+    parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
+    arguments = parser.parse_args()
+    sizes = dict(zip(KINDS, (arguments.wide, arguments.undamped, arguments.folds), strict=True))
+    print("| seed | bogies | asked | " + " | ".join(VERDICTS) + " |")
+    print("| --- " * (3 + len(VERDICTS)) + "|", flush=True)
+    bad = 0
+    for seed in arguments.seeds:
+        for kind, n in sizes.items():
+            for way, counts in campaign(kind, n, seed).items():
+                print(
+                    f"| {seed} | {n} {kind} | {way} | " + " | ".join(str(counts[x]) for x in VERDICTS) + " |",
+                    flush=True,
+                )
+                bad += sum(counts[x] for x in ("wrong", "missed", "invented"))
+    sys.exit(bad > 0)
+
+
+if __name__ == "__main__":
+    main()

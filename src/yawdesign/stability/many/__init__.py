@@ -1,0 +1,1 @@
+"""Many points at once: the same questions as for a single bogie, on arrays."""
