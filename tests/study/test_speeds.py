@@ -70,6 +70,57 @@ def test_the_range_of_the_problem_is_searched(table1):
     assert evaluate(asked, p).columns["count"].tolist() == [1, 0]
 
 
+# Unstable from 219.72 to 221.12 km/h: two changes that undo each other within one of the 2.46 km/h that are looked at.
+NARROW = {
+    "M_b": 9039.58, "J_b": 9902.78, "M_w": 2217.15, "J_w": 2202.6, "M_m": 1617.43, "J_m": 1261.39, "W": 185130,
+    "K_1x": 49286400, "K_1y": 5213830, "K_2x": 931438, "K_2y": 675889, "K_m": 489176, "K_mphi": 333243,
+    "K_ds": 29312600, "K_dt": 33808300, "K_dm": 33011400, "C_t": 65410.1, "C_mphi": 16413.4, "C_m": 28991.4,
+    "a": 1.5399, "b": 0.91796, "a_0": 1.00365, "b_0": 0.420661, "b_1": 0.811462, "b_2": 1.27891, "b_3": 0.916541,
+    "r": 0.748269, "lambda": 0.5, "f_11": 8008740, "f_22": 10645000,
+}  # fmt: skip
+RECIPROCAL = {"kind": "power", "equations": "reciprocal"}
+
+
+def test_two_changes_that_undo_each_other():
+    speeds, columns = found(NARROW, 117280.942, RECIPROCAL)
+    assert speeds[:2] * 3.6 == pytest.approx([219.724254, 221.119203], abs=1e-6)
+    assert columns["unstable_roots"][0][:3].tolist() == [0, 2, 0]
+
+
+@pytest.mark.parametrize("more", [0.0, 300.0, 600.0, 690.0])
+def test_ever_narrower_intervals(more):
+    # With more damping the unstable interval shrinks; the largest real part between its ends tells whether it is there.
+    C_s = 117280.942 + more
+    v = np.linspace(219, 222, 6001) / 3.6
+    unstable = core_eigenvalues({**NARROW, "v": v}, C_s, **RECIPROCAL).real.max(axis=1) > 0
+    speeds, _ = found(NARROW, C_s, RECIPROCAL)
+    within = speeds[(speeds > v[0]) & (speeds < v[-1])]
+    if unstable.any():
+        expected = [v[unstable][0], v[unstable][-1]]
+        assert within == pytest.approx(expected, abs=2e-4)
+    else:
+        assert not len(within)
+
+
+@pytest.mark.slow
+def test_no_change_is_missed_between_the_speeds(random_bogies):
+    several, v = 0, np.linspace(*SEARCHED, 4001)
+    rng = np.random.default_rng(6)
+    for p, model in random_bogies(60, seed=9):
+        C_s = 10 ** rng.uniform(4, 7)
+        speeds, _ = found(p, C_s, model)
+        s = core_eigenvalues({**p, "v": v}, C_s, **model)
+        counts = np.sum(s.real > 0, axis=1)
+        changes = np.flatnonzero(np.diff(counts))
+        # Whatever the dense look sees was found; what was found and not seen must be a pair between two of its speeds.
+        for k in changes:
+            assert np.any((speeds >= v[k]) & (speeds <= v[k + 1]))
+        places = np.searchsorted(v, speeds)
+        assert all(k - 1 in changes or np.sum(places == k) % 2 == 0 for k in places)
+        several += len(speeds)
+    assert several > 40
+
+
 def test_several_changes_in_one_cell(random_bogies, monkeypatch):
     model, found_two = {"kind": "power", "equations": "as-printed"}, 0
     for p, _ in random_bogies(25, seed=5, spread=2.0):

@@ -19,6 +19,8 @@ from yawdesign.stability.routh import routh_column as generic_column
 
 Names = tuple[str, ...]
 
+NEAR = 1e-8  # how far the rootfinder may move a guess that is known to nine digits; farther lies another root
+
 
 def _symbols(names: Names) -> tuple[ca.SX, dict[str, ca.SX]]:
     vector = ca.SX.sym("p", len(names))
@@ -133,5 +135,5 @@ def _polish(solve: ca.Function, p: NDArray[np.float64], C_s: float, omega: float
     start = np.array([np.log(C_s), omega / TIME_UNIT])
     z = np.array(solve(start, p)).ravel()
     moved = np.abs(z - start)
-    near = np.all(np.isfinite(z)) and np.all(moved < 1e-5 * np.maximum(1, np.abs(start)))
+    near = np.all(np.isfinite(z)) and np.all(moved < NEAR * np.maximum(1, np.abs(start)))
     return (float(np.exp(z[0])), float(z[1] * TIME_UNIT)) if near else (C_s, omega)

@@ -54,7 +54,7 @@ def _agrees(question: Question, case: Block, s: Complex) -> Bools:
         errors = [backward_error(tuple(a[part] for a in core), s[part]) for part in parts]
         unstable = count_undamped(s)
     exact = (np.concatenate(errors) < EXACT).all(axis=1)
-    count, doubts = kernels.unstable_roots(question.kind, question.equations, case.zeros)(case.values)
+    count, doubts, _ = kernels.unstable_roots(question.kind, question.equations, case.zeros)(case.values)
     return np.asarray(exact & (doubts == 0) & (count == unstable))
 
 

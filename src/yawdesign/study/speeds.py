@@ -1,11 +1,12 @@
 """Critical speeds: where, for a given yaw damping, stability is gained or lost as the bogie runs faster.
 
 The polynomial is of fourth degree in 1/v, so there is no closed set of equations as for C_s. The unstable roots are
-counted at closely spaced speeds, and every change is halved down to rounding. Two changes that undo each other between
-two neighbouring speeds are not seen.
+counted at closely spaced speeds. A quotient of Hurwitz minors vanishes where a pair of roots crosses the imaginary
+axis: between two speeds with the same count its least magnitude is looked for, and where it reaches zero there are two
+changes that undo each other. Every change is halved down to rounding.
 """
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +20,13 @@ from yawdesign.study.question import Answers, Question
 
 Float = NDArray[np.float64]
 Ints = NDArray[np.intp]
+Complex = NDArray[np.complex128]
+Bools = NDArray[np.bool_]
 
 SPEEDS = 240  # between which changes are looked for
+WITHIN = 12  # the same inside each interval with a change
+SECTIONS = 28  # of the search for a least magnitude: down to a millionth of the interval
+TOUCHING = 1e-3  # of the magnitude beside it: a least one below this is looked at by eigenvalues
 TOGETHER = 8192  # points that are counted at once
 HALVINGS = 34
 ON_AXIS = 1e-6  # largest |Re| of the root at a critical speed, relative to max(1, |s|)
@@ -29,17 +35,18 @@ ON_AXIS = 1e-6  # largest |Re| of the root at a critical speed, relative to max(
 def critical_speeds(question: Question, block: Block) -> Answers:
     """Return all speeds at which the number of unstable roots of the coupled motion changes."""
     v = np.linspace(question.speeds[0], question.speeds[-1], SPEEDS + 1)
-    counts, mended = _counts(question, block, v)
-    owner, cell = np.nonzero(np.diff(counts, axis=1))
-    found = _changes(question, block, owner, v[cell], v[cell + 1], counts[owner, cell], counts[owner, cell + 1])
-    owner, speed, above = found
-    s = eigenvalues(question, block.part(owner).with_values(v=speed)) if len(owner) else np.zeros((0, 1), dtype=complex)
-    nearest = np.argmin(np.abs(s.real) / np.maximum(1, np.abs(s)), axis=1)[:, None]
-    s = np.take_along_axis(s, nearest, axis=1)[:, 0]
+    start, mended = _sampled(question, block, np.arange(block.size), np.tile(v, (block.size, 1)))
+    first = _intervals(question, block, start)
+    inner = np.linspace(first.low, first.high, WITHIN + 1, axis=-1)
+    within, _ = _sampled(question, block, first.owner, inner)
+    found = _intervals(question, block, within)
+    owner, speed, above = _changes(question, block, found)
+    s = _nearest(question, block, owner, speed)
     rows = Rows(owner, speed, block.size)
-    unstable = np.concatenate([counts[:, :1], rows.spread(above)], axis=1)
+    unstable = np.concatenate([start.counts[:, :1], rows.spread(above)], axis=1)
     unverified = np.zeros(block.size, dtype=bool)
-    unverified[owner[~(np.abs(s.real) < ON_AXIS * np.maximum(1, np.abs(s)))]] = True
+    unverified[owner[~_close(s)]] = True
+    unverified[np.concatenate([first.touching, found.touching])] = True
     columns = {
         "critical_speed": rows.spread(speed),
         "omega": rows.spread(np.abs(s.imag)),
@@ -49,39 +56,122 @@ def critical_speeds(question: Question, block: Block) -> Answers:
     return Answers(columns, mended, unverified)
 
 
-def _counts(question: Question, block: Block, v: Float) -> tuple[Float, NDArray[np.bool_]]:
-    """Return the number of unstable roots at every point and speed, and where eigenvalues had to be asked."""
-    counts = np.empty((block.size, len(v)))
+class _Samples(NamedTuple):
+    """Counts of unstable roots at rising speeds, a row for each stretch that is looked at.
+
+    `nearness` is zero where a pair of roots lies on the imaginary axis.
+    """
+
+    owner: Ints
+    v: Float
+    counts: Float
+    nearness: Float
+
+
+class _Intervals(NamedTuple):
+    """Intervals of speed with different counts at their ends, and who has a pair of roots that touches the axis."""
+
+    owner: Ints
+    low: Float
+    high: Float
+    before: Float
+    after: Float
+    touching: Ints
+
+
+def _sampled(question: Question, block: Block, owner: Ints, v: Float) -> tuple[_Samples, Bools]:
+    """Return what is counted for every owner at its row of speeds, and where eigenvalues had to be asked."""
+    counts, nearness = np.empty((2, *v.shape))
     mended = np.zeros(block.size, dtype=bool)
-    step = max(1, TOGETHER // block.size)
-    for first in range(0, len(v), step):
-        some = v[first : first + step]
-        owner = np.repeat(np.arange(block.size), len(some))
-        count, doubtful = _count(question, block.part(owner).with_values(v=np.tile(some, block.size)))
-        counts[:, first : first + step] = count.reshape(block.size, -1)
-        mended[owner[doubtful]] = True
-    return counts, mended
+    step = max(1, TOGETHER // max(1, len(owner)))
+    for first in range(0, v.shape[1] if len(owner) else 0, step):
+        some = v[:, first : first + step]
+        whose = np.repeat(owner, some.shape[1])
+        count, doubtful, near = _count(question, block.part(whose).with_values(v=some.ravel()))
+        counts[:, first : first + step] = count.reshape(some.shape)
+        nearness[:, first : first + step] = np.abs(near).reshape(some.shape)
+        mended[whose[doubtful]] = True
+    return _Samples(owner, v, counts, nearness), mended
 
 
-def _count(question: Question, block: Block) -> tuple[Float, NDArray[np.bool_]]:
-    """Return the number of unstable roots at every point, by Routh's array or, if in doubt, by eigenvalues."""
-    count, doubts = kernels.unstable_roots(question.kind, question.equations, block.zeros)(block.values)
+def _intervals(question: Question, block: Block, samples: _Samples) -> _Intervals:
+    """Return the intervals between neighbouring speeds in which the count changes, also those where it changes back."""
+    row, cell = np.nonzero(np.diff(samples.counts, axis=1))
+    plain = (samples.owner[row], *(x[row, cell + k] for x in (samples.v, samples.counts) for k in (0, 1)))
+    owner, low, high, count = _dips(samples)
+    middle, inside, ratio = _least(question, block, owner, low, high, count)
+    back = inside != count
+    halves = (
+        (owner[back], low[back], middle[back], count[back], inside[back]),
+        (owner[back], middle[back], high[back], inside[back], count[back]),
+    )
+    near = ~back & (ratio < TOUCHING)
+    touching = owner[near][_close(_nearest(question, block, owner[near], middle[near]))]
+    owners, lows, highs, befores, afters = (np.concatenate(column) for column in zip(plain, *halves, strict=True))
+    return _Intervals(owners, lows, highs, befores, afters, touching)
+
+
+def _dips(samples: _Samples) -> tuple[Ints, Float, Float, Float]:
+    """Return where the nearness has a least value among speeds of the same count: whose, between which, the count."""
+    same = np.diff(samples.counts, axis=1) == 0
+    beyond = np.full((len(same), 1), False)
+    left, right = np.concatenate([beyond, same], axis=1), np.concatenate([same, beyond], axis=1)
+    near = samples.nearness
+    lower_left = np.concatenate([~beyond, near[:, 1:] <= near[:, :-1]], axis=1) | ~left
+    lower_right = np.concatenate([near[:, :-1] < near[:, 1:], ~beyond], axis=1) | ~right
+    row, k = np.nonzero(lower_left & lower_right & (left | right))
+    low, high = samples.v[row, k - left[row, k]], samples.v[row, k + right[row, k]]
+    return samples.owner[row], low, high, samples.counts[row, k]
+
+
+def _least(
+    question: Question, block: Block, owner: Ints, low: Float, high: Float, count: Float
+) -> tuple[Float, Float, Float]:
+    """Return where in each interval the nearness is least (golden section), or any place found with another count.
+
+    Also the count there, and the nearness relative to the first one looked at.
+    """
+    shape = len(owner)
+    place, inside, least = (low + high) / 2, count.copy(), np.full(shape, np.inf)
+    if not shape:
+        return place, inside, least
+    golden = (np.sqrt(5) - 1) / 2
+    first = None
+    for _ in range(SECTIONS):
+        ends = high - golden * (high - low), low + golden * (high - low)
+        looked = [_count(question, block.part(owner).with_values(v=v)) for v in ends]
+        near = [np.abs(x[2]) for x in looked]
+        first = np.maximum(*near) if first is None else first
+        for v, (here, _, _), size in zip(ends, looked, near, strict=True):
+            better = (inside == count) & ((here != count) | (size < least))
+            place, inside, least = (np.where(better, *pair) for pair in ((v, place), (here, inside), (size, least)))
+        to_left = near[0] < near[1]
+        low, high = np.where(to_left, low, ends[0]), np.where(to_left, ends[1], high)
+    with np.errstate(all="ignore"):
+        return place, inside, least / first
+
+
+def _count(question: Question, block: Block) -> tuple[Float, Bools, Float]:
+    """Return the number of unstable roots at every point, by Routh's array or, if in doubt, by eigenvalues.
+
+    Also where these were asked, and the nearness to a change.
+    """
+    count, doubts, near = kernels.unstable_roots(question.kind, question.equations, block.zeros)(block.values)
     doubtful = doubts > 0
     if doubtful.any():
         count[doubtful] = count_undamped(eigenvalues(question, block.part(doubtful)))
-    return count, doubtful
+    return count, doubtful, near
 
 
-def _changes(
-    question: Question, block: Block, owner: Ints, low: Float, high: Float, before: Float, after: Float
-) -> tuple[Ints, Float, Float]:
+def _changes(question: Question, block: Block, found: _Intervals) -> tuple[Ints, Float, Float]:
     """Return whose count changes at which speed, and the count above it."""
+    owner, low, high, before, after, _ = found
     pieces: list[tuple[Any, ...]] = [(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0))]
     while len(owner):
         below, above, count = low, high, after
         for _ in range(HALVINGS):
             middle = (below + above) / 2
-            here, _ = _count(question, block.part(owner).with_values(v=middle))
+            here, _, _ = _count(question, block.part(owner).with_values(v=middle))
             same = here == before
             below, above = np.where(same, middle, below), np.where(same, above, middle)
             count = np.where(same, count, here)
@@ -91,3 +181,16 @@ def _changes(
         before, after = count[more], after[more]
     whole = [np.concatenate(column) for column in zip(*pieces, strict=True)]
     return whole[0], whole[1], whole[2]
+
+
+def _nearest(question: Question, block: Block, owner: Ints, v: Float) -> Complex:
+    """Return of every owner at its speed the eigenvalue that is nearest to the imaginary axis."""
+    if not len(owner):
+        return np.zeros(0, dtype=complex)
+    s = eigenvalues(question, block.part(owner).with_values(v=v))
+    nearest = np.argmin(np.abs(s.real) / np.maximum(1, np.abs(s)), axis=1)[:, None]
+    return np.take_along_axis(s, nearest, axis=1)[:, 0]
+
+
+def _close(s: Complex) -> Bools:
+    return np.asarray(np.abs(s.real) < ON_AXIS * np.maximum(1, np.abs(s)))

@@ -72,10 +72,12 @@ def boundaries(kind: str, equations: str, zeros: Zeros = frozenset()) -> tuple[T
 def unstable_roots(kind: str, equations: str, zeros: Zeros = frozenset()) -> Tape:
     """Return the tape that counts the unstable roots of the coupled motion.
 
-    Inputs: parameters, C_s, v. Outputs: the count, and the number of doubtful steps in it.
+    Inputs: parameters, C_s, v. Outputs: the count, the number of doubtful steps in it, and the last entry but one of
+    Routh's column: a quotient of Hurwitz minors that changes its sign where a pair of roots crosses the imaginary axis.
     """
     p, c = _bogie(kind, equations, zeros)
-    return _tape(p, _count(scale_variable(_without_zeros(c.core(p["C_s"])), TIME_UNIT)))
+    rows = routh_rows(scale_variable(_without_zeros(c.core(p["C_s"])), TIME_UNIT))
+    return _tape(p, [*_count(rows), rows[-2][0]])
 
 
 @lru_cache
@@ -92,7 +94,7 @@ def counts(size: int) -> Tape:
     Outputs: the count, and the number of doubtful steps in it.
     """
     inputs = {f"a{k}": ca.SX.sym(f"a{k}") for k in range(size)}
-    return _tape(inputs, _count(tuple(inputs.values())))
+    return _tape(inputs, _count(routh_rows(tuple(inputs.values()))))
 
 
 def _bogie(kind: str, equations: str, zeros: Zeros) -> tuple[dict[str, ca.SX], Characteristic]:
@@ -106,9 +108,8 @@ def _without_zeros(p: Polynomial) -> Polynomial:
     return trim(p, lambda a: bool(ca.SX(a).is_zero()))
 
 
-def _count(p: Polynomial) -> list[ca.SX]:
+def _count(rows: Sequence[Sequence[Number]]) -> list[ca.SX]:
     """Return the number of sign changes in Routh's column, and the number of doubtful entries."""
-    rows = routh_rows(p)
     negative = [ca.SX(row[0]) < 0 for row in rows]
     changes = [(a - b) ** 2 for a, b in pairwise(negative)]
     return [reduce(plus, changes), len(rows) - reduce(plus, _sure(rows))]
