@@ -65,7 +65,7 @@ def test_c_code_passes_its_self_test_under_sanitizers(exported):
     done = subprocess.run([compiled(to, "selftest", *CHECKED)], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stderr == ""
-    assert done.stdout.count(" ok\n") == len(yd.functions(task)) == 9
+    assert done.stdout.count(" ok\n") == len(yd.functions(task)) == 10
 
 
 def test_the_self_test_sees_a_wrong_number(small, tmp_path):
@@ -327,3 +327,86 @@ def test_a_run_that_fails_leaves_nothing(tmp_path, monkeypatch):
     with pytest.raises(RuntimeError, match="in the middle"):
         yd.export(yd.table1(), tmp_path / "out", only="dynamic_stiffness")
     assert list(tmp_path.iterdir()) == []
+
+
+TWO_IN_ONE = r"""
+#include <stdio.h>
+#include "front.h"
+#include "rear_bogie.h"
+#define PRINT(f) { \
+  double x[] = f##_VALUES, y, w[f##_SZ_W], *res[f##_SZ_RES] = {0}; \
+  const double *arg[f##_SZ_ARG] = {x, x + 1, x + 2}; \
+  casadi_int iw[f##_SZ_IW]; \
+  res[f##_out_K_dyn] = &y; \
+  if (f(arg, res, iw, w, 0)) return 1; \
+  printf("%.17g\n", y); \
+}
+int main(void) {
+  PRINT(front_dynamic_stiffness)
+  PRINT(rear_bogie_dynamic_stiffness)
+  return 0;
+}
+"""
+
+
+def test_two_exports_in_one_program(tmp_path):
+    tasks = {"front": yd.table1(), "rear_bogie": yd.table1().replace(C_s=3e5)}
+    for name, task in tasks.items():
+        yd.export(task, tmp_path / name, only="dynamic_stiffness,c", prefix=name)
+        subprocess.run(["make", "-s", "-C", tmp_path / name, "check"], check=True)
+    (tmp_path / "two.c").write_text(TWO_IN_ONE)
+    folders = [tmp_path / name for name in tasks]
+    sources = [tmp_path / "two.c", *(folder / f"{folder.name}.c" for folder in folders)]
+    command = ["cc", *CHECKED, *(f"-I{folder}" for folder in folders), "-o", tmp_path / "two", *sources, "-lm"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    found = subprocess.run([tmp_path / "two"], capture_output=True, text=True, check=True).stdout.split()
+    for task, text in zip(tasks.values(), found, strict=True):
+        f = yd.functions(task).documented["dynamic_stiffness"]
+        assert float(text) == pytest.approx(float(f.function.call([port.value for port in f.inputs])[2]), rel=1e-12)
+
+
+def test_every_symbol_begins_with_the_prefix(tmp_path):
+    assert run("--to", tmp_path / "out", "--only", "critical_damping,c", "--prefix", "front").exit_code == 0
+    subprocess.run(["cc", "-c", "-o", tmp_path / "a.o", tmp_path / "out" / "front.c"], check=True)
+    command = ["nm", "-g", "--defined-only", tmp_path / "a.o"]
+    listed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    symbols = [line.split()[-1] for line in listed.splitlines()]
+    assert symbols
+    assert all(name.startswith("front_") for name in symbols)
+    header = (tmp_path / "out" / "front.h").read_text()
+    assert not re.search(r"(?i)yawdesign_", header)
+
+
+MISFITS = ["", "1a", "a-b", "a b", "_a", "a_", "a__b", "ä", "../a", "a.c", "a\n", "a" * 31, "math", "Stdio", "selftest"]
+
+
+@pytest.mark.parametrize("prefix", MISFITS)
+def test_prefixes_that_do_not_fit(tmp_path, prefix):
+    done = run("--to", tmp_path / "out", "--only", "dynamic_stiffness", "--prefix", prefix)
+    assert done.exit_code == 2
+    assert "prefix" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_manifest_tells_how_each_function_is_called(exported, library):
+    """With the manifest alone: vectors of the lengths that it gives, and the inputs in its order."""
+    to, _ = exported
+    manifest, header = manifest_of(to), (to / "yawdesign.h").read_text(encoding="ascii")
+    assert manifest["c_types"] == {"casadi_real": "double", "casadi_int": "long long int"}
+    code = ctypes.CDLL(str(library))
+    for name, entry in manifest["functions"].items():
+        assert f"{entry['c_signature']};" in header
+        length, test = entry["c_vector_lengths"], entry["self_test"]
+        given = [(ctypes.c_double * len(x))(*x) for x in test["inputs"].values()]
+        found = [(ctypes.c_double * (port["shape"][0] * port["shape"][1]))() for port in entry["outputs"]]
+        arg, res = (ctypes.c_void_p * length["arg"])(), (ctypes.c_void_p * length["res"])()
+        for vector, arrays in ((arg, given), (res, found)):
+            vector[: len(arrays)] = [ctypes.addressof(x) for x in arrays]
+        iw, w = (ctypes.c_longlong * length["iw"])(), (ctypes.c_double * length["w"])()
+        assert getattr(code, entry["c_symbol"])(arg, res, iw, w, 0) == 0
+        for got, expected, port in zip(found, test["outputs"].values(), entry["outputs"], strict=True):
+            expected = [np.nan if x is None else x for x in expected]
+            assert list(got) == pytest.approx(expected, rel=1e-9, abs=1e-12, nan_ok=True), (name, port["name"])
+            assert len(port.get("units", expected)) == len(expected)
+            assert port["unit"] != "SI" or port["units"]
