@@ -81,7 +81,7 @@ def load(body: str) -> Run | None:
         _hanging.add(compiler[0])
         note(str(error))
     except (OSError, RuntimeError, ValueError, AttributeError) as error:
-        note(f"{compiler[0]}: {error}")
+        note(f"{compiler[0]}: {_told(error)}")
     return None
 
 
@@ -94,6 +94,13 @@ def note(reason: str) -> None:
 @cache
 def _not_kept(reason: str) -> None:
     warnings.warn(f"compiled code is not kept for the next run: {reason}", RuntimeWarning, stacklevel=2)
+
+
+def _told(error: Exception) -> str:
+    """Return what went wrong in words, without the system's number for it."""
+    if isinstance(error, OSError) and error.strerror and error.filename:
+        return f"{error.strerror}: {error.filename}"
+    return str(error)
 
 
 def _callable(library: ctypes.CDLL) -> Run:
@@ -120,7 +127,7 @@ def _library(source: str, compiler: tuple[str, str]) -> ctypes.CDLL:
         try:
             library = library_cache.keep(key, library.read_bytes())
         except OSError as error:
-            _not_kept(str(error))
+            _not_kept(_told(error))
         return ctypes.CDLL(str(library))  # what is loaded stays so without its file
 
 
@@ -153,7 +160,7 @@ def _answer(name: str) -> tuple[str, str] | None:
     try:
         done = run([path, "--version"], ANSWER_LIMIT)
     except OSError as error:
-        note(str(error))
+        note(_told(error))
         return None
     return (path, done.stdout) if done.returncode == 0 else None
 
