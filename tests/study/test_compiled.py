@@ -217,16 +217,15 @@ def test_wrong_code_is_not_used(monkeypatch):
 @pytest.mark.parametrize("when", ["asked for its version", "compiling"])
 def test_a_compiler_that_hangs_is_stopped_with_its_children(when, monkeypatch, tmp_path):
     child = tmp_path / "child"
-    hangs = f"sleep 600 & echo $! > {child}; wait"
+    hangs = f"sleep 600 & echo $! >> {child}; wait"
     monkeypatch.setenv(compiled.SWITCH, script(tmp_path, (ANSWERS if when == "compiling" else "") + hangs))
     for limit in ("TIME_LIMIT", "ANSWER_LIMIT"):
         monkeypatch.setattr(compiled, limit, 1.0)
-    begin = time.monotonic()
     with pytest.warns(RuntimeWarning, match=r"compiler did not finish in 1 s and was stopped"):
         assert not is_compiled()
     assert not is_compiled()
-    assert time.monotonic() - begin < 2.0, "it is asked once"
-    assert has_ended(int(child.read_text()))
+    (number,) = child.read_text().split()  # it is asked once
+    assert has_ended(int(number))
 
 
 def has_ended(number):
