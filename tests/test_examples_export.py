@@ -1,5 +1,7 @@
 """The examples that use exported functions are run, as their first lines say, and their output is checked."""
 
+import json
+import math
 import re
 import subprocess
 import sys
@@ -21,7 +23,7 @@ SANITIZED = ["-std=c99", "-O1", "-Wall", "-Werror", "-fsanitize=address,undefine
 def exported(tmp_path_factory):
     """Return the folder with the exported critical damping of Table I as printed."""
     to = tmp_path_factory.mktemp("examples") / "exported"
-    yd.export(yd.load(ROOT / "problems" / "table1.yaml"), to, only="critical_damping")
+    yd.export(yd.load(ROOT / "problems" / "table1.yaml"), to, only="critical_damping,critical_equations")
     return to
 
 
@@ -36,8 +38,8 @@ def program(exported):
     return out
 
 
-def run(*command, code=0):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, check=False)
+def run(*command, code=0, cwd=None):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, check=False, cwd=cwd)
     assert done.returncode == code, done.stdout + done.stderr
     return done
 
@@ -117,6 +119,32 @@ def test_python_of_the_documents(page, exported, monkeypatch, capsys):
     for block in blocks:
         exec(compile(block, page, "exec"), {})
     assert capsys.readouterr().out
+
+
+def test_the_rootfinder_that_the_page_makes_of_the_equations(exported, monkeypatch, capsys):
+    """It reads a file of an older CasADi, and finds the same."""
+    text = (ROOT / "docs" / "export-casadi.md").read_text(encoding="utf-8")
+    (block,) = [b for b in re.findall(r"```python\n(.*?)```", text, re.DOTALL) if "critical_equations" in b]
+    monkeypatch.chdir(exported.parent)
+    names = {}
+    exec(compile(block, "export-casadi", "exec"), names)
+    described = json.loads((exported / "manifest.json").read_text(encoding="utf-8"))["functions"]["critical_equations"]
+    *p, (C_s,), (omega,) = described["self_test"]["inputs"].values()
+    found = names["critical"]([math.log(1.05 * C_s), 0.98 * omega / 100], [x for (x,) in p])
+    assert math.exp(found[0]) == pytest.approx(90702.8897786979, rel=1e-9)
+    assert float(found[1]) * 100 == pytest.approx(23.15473658, rel=1e-9)
+    capsys.readouterr()
+
+
+def test_yawdesign_can_be_imported_where_its_exports_were_compiled(tmp_path):
+    """With every artefact that the Makefile and the pages make; Python looks in the working folder first."""
+    to = tmp_path / "exported"
+    yd.export(yd.table1(), to, only="dynamic_stiffness", formats="c")
+    subprocess.run(["make", "-s", "-C", to, "all", "library"], check=True)
+    assert (to / "libyawdesign.so").exists()
+    assert "yawdesign" in run(sys.executable, "-c", "import yawdesign; print(yawdesign.Problem)", cwd=to).stdout
+    for page in (ROOT / "docs").glob("*.md"):
+        assert not re.search(r"-o \S*\byawdesign\.(so|pyd|py)\b", page.read_text(encoding="utf-8")), page
 
 
 def test_documents_name_every_function_and_file():

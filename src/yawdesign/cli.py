@@ -330,6 +330,9 @@ def export(
         str | None, typer.Option(metavar="NAMES", help="Functions, or kinds of files, to write; all.")
     ] = None,
     formats: Annotated[str | None, typer.Option(metavar="NAMES", help="Kinds of files to write; all.")] = None,
+    prefix: Annotated[
+        str, typer.Option(metavar="NAME", help="What C files and symbols begin with; another for each export.")
+    ] = "yawdesign",
     force: Annotated[bool, typer.Option("--force", help="Replace the files of an earlier export.")] = False,
     as_json: AsJson = False,
 ) -> None:
@@ -338,7 +341,7 @@ def export(
         problem = _read(file)
         from yawdesign.output.export.write import export as write
 
-        result = write(problem, to, inputs=inputs, only=only, formats=formats, force=force)
+        result = write(problem, to, inputs=inputs, only=only, formats=formats, prefix=prefix, force=force)
         for note in result.notes:
             _tell(f"note: {note}")
         _show(result, as_json, "export_tables")
@@ -352,7 +355,7 @@ def new(
 ) -> None:
     """Write a commented problem file to start from."""
     from yawdesign.problem import ProblemError, starter
-    from yawdesign.study.writing import write_whole
+    from yawdesign.problem.writing import write_whole
 
     with _mistakes_shown():
         if kind not in ("power", "trailer"):

@@ -25,7 +25,7 @@ from yawdesign.stability.routh import routh_column, sector_column
 
 NAMES = (
     "state_matrix", "characteristic_polynomial", "routh_column", "hurwitz_minors", "critical_damping",
-    "rotational_resistance", "stability_margin", "margin_equations", "dynamic_stiffness",
+    "critical_equations", "rotational_resistance", "stability_margin", "margin_equations", "dynamic_stiffness",
 )  # fmt: skip
 MOTOR_KEYS = {key for key, row in yd.PARAMETERS.items() if row.motor}
 TRAILER = {"kind": "trailer", "equations": "reciprocal"}
@@ -316,3 +316,20 @@ def test_state_space_without_damping():
     assert not system.C[system.outputs.index("F_s")].any()
     with pytest.raises(yd.ProblemError, match="C_s"):
         yd.state_space(yd.table1().replace(C_s=None))
+
+
+def test_critical_equations_vanish_at_the_critical_damping():
+    documented = yd.functions(yd.table1(equations="as-printed")).documented
+    f, g = (documented[name].function for name in ("critical_damping", "critical_equations"))
+    values = [port.value for port in documented["critical_damping"].inputs]
+    C_sl, omega = f.call(values)[:2]
+    assert float(C_sl) == pytest.approx(90702.8897786979, rel=1e-9)
+    assert g.name_in() == [*f.name_in()[:-2], "C_sl", "omega"]
+    assert abs(g(*values[:-2], C_sl, omega).full()).max() < 1e-10
+    assert abs(g(*values[:-2], 1.01 * C_sl, omega).full()).max() > 1e-7
+
+
+def test_only_the_rootfinder_has_a_file_that_changes_its_form():
+    """What else is exported is made of operations between numbers, which later versions of CasADi read."""
+    for name, f in yd.functions(yd.table1()).items():
+        assert f.is_a("SXFunction") == (name != "critical_damping")

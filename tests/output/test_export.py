@@ -65,7 +65,7 @@ def test_c_code_passes_its_self_test_under_sanitizers(exported):
     done = subprocess.run([compiled(to, "selftest", *CHECKED)], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stderr == ""
-    assert done.stdout.count(" ok\n") == len(yd.functions(task)) == 9
+    assert done.stdout.count(" ok\n") == len(yd.functions(task)) == 10
 
 
 def test_the_self_test_sees_a_wrong_number(small, tmp_path):
@@ -327,3 +327,26 @@ def test_a_run_that_fails_leaves_nothing(tmp_path, monkeypatch):
     with pytest.raises(RuntimeError, match="in the middle"):
         yd.export(yd.table1(), tmp_path / "out", only="dynamic_stiffness")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_manifest_tells_how_each_function_is_called(exported, library):
+    """With the manifest alone: vectors of the lengths that it gives, and the inputs in its order."""
+    to, _ = exported
+    manifest, header = manifest_of(to), (to / "yawdesign.h").read_text(encoding="ascii")
+    assert manifest["c_types"] == {"casadi_real": "double", "casadi_int": "long long int"}
+    code = ctypes.CDLL(str(library))
+    for name, entry in manifest["functions"].items():
+        assert f"{entry['c_signature']};" in header
+        length, test = entry["c_vector_lengths"], entry["self_test"]
+        given = [(ctypes.c_double * len(x))(*x) for x in test["inputs"].values()]
+        found = [(ctypes.c_double * (port["shape"][0] * port["shape"][1]))() for port in entry["outputs"]]
+        arg, res = (ctypes.c_void_p * length["arg"])(), (ctypes.c_void_p * length["res"])()
+        for vector, arrays in ((arg, given), (res, found)):
+            vector[: len(arrays)] = [ctypes.addressof(x) for x in arrays]
+        iw, w = (ctypes.c_longlong * length["iw"])(), (ctypes.c_double * length["w"])()
+        assert getattr(code, entry["c_symbol"])(arg, res, iw, w, 0) == 0
+        for got, expected, port in zip(found, test["outputs"].values(), entry["outputs"], strict=True):
+            expected = [np.nan if x is None else x for x in expected]
+            assert list(got) == pytest.approx(expected, rel=1e-9, abs=1e-12, nan_ok=True), (name, port["name"])
+            assert len(port.get("units", expected)) == len(expected)
+            assert port["unit"] != "SI" or port["units"]

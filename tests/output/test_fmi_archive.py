@@ -217,6 +217,17 @@ def test_a_compiler_that_fails_is_told(tmp_path, monkeypatch, script, message):
     assert str(compiler) in fmu.message
 
 
+def test_a_compiler_that_hangs_is_stopped(tmp_path, monkeypatch):
+    script = tmp_path / "slow-cc"
+    script.write_text("#!/bin/sh\nsleep 600 & wait\n")
+    script.chmod(0o755)
+    monkeypatch.setenv("CC", str(script))
+    monkeypatch.setattr("yawdesign.output.fmi.compiler._TIME_LIMIT", 0.5)
+    fmu = yd.write_fmu(TABLE_1, tmp_path / "bogie.fmu")
+    assert fmu.platform is None
+    assert "slow-cc did not finish in 0.5 s and was stopped; the FMU holds its C code only" in fmu.message
+
+
 def test_a_compiler_named_but_not_there(tmp_path, monkeypatch):
     monkeypatch.setenv("CC", "no-such-compiler -m64")
     assert "CC=no-such-compiler names none" in yd.write_fmu(TABLE_1, tmp_path / "bogie.fmu").message

@@ -87,7 +87,7 @@ def test_two_changes_that_undo_each_other():
     assert columns["unstable_roots"][0][:3].tolist() == [0, 2, 0]
 
 
-@pytest.mark.parametrize("more", [0.0, 300.0, 600.0, 690.0])
+@pytest.mark.parametrize("more", [0.0, 10.0, 20.0, 24.0, 30.0, 100.0])
 def test_ever_narrower_intervals(more):
     # With more damping the unstable interval shrinks; the largest real part between its ends tells whether it is there.
     C_s = 117280.942 + more

@@ -7,11 +7,13 @@ from typing import Any
 
 import casadi as ca
 
-from yawdesign.bogie.characteristic import characteristic, paper_coefficients
-from yawdesign.bogie.elements import Maxwell
+from yawdesign.bogie.assembly import folded
+from yawdesign.bogie.characteristic import Characteristic, characteristic, paper_coefficients
+from yawdesign.bogie.elements import Mass, Maxwell
 from yawdesign.bogie.polynomials import Polynomial, product, scale_variable, shift, trim
+from yawdesign.bogie.vehicles import bogie
 from yawdesign.design.curving import LOADS, curving_limit, resisting_moment, rotational_resistance
-from yawdesign.design.draft import Draft
+from yawdesign.design.draft import Draft, described, per
 from yawdesign.design.starts import quadratic_factors, start_of_critical_damping
 from yawdesign.design.states import state_names, state_space_matrices
 from yawdesign.problem import ProblemError
@@ -29,11 +31,21 @@ def _all(draft: Draft) -> tuple[dict[str, Any], Any]:
     return p, p.pop("C_s")
 
 
-def _core(draft: Draft) -> Polynomial:
-    """Return the coupled motion's polynomial in s / (100 rad/s), without powers that are known not to be there."""
+def _core(draft: Draft) -> tuple[Polynomial, str]:
+    """Return the coupled motion's polynomial in s / (100 rad/s), without known zeros, and its coefficients' unit."""
     p, C_s = _all(draft)
-    core = scale_variable(characteristic(p, **draft.setting.model).core(C_s), TIME_UNIT)
-    return trim(core, lambda a: bool(a.is_zero() if isinstance(a, ca.SX) else a == 0))
+    c = characteristic(p, **draft.setting.model)
+    core = scale_variable(c.core(C_s), TIME_UNIT)
+    return trim(core, lambda a: bool(a.is_zero() if isinstance(a, ca.SX) else a == 0)), _unit(c, p, draft)
+
+
+def _unit(c: Characteristic, p: Mapping[str, Any], draft: Draft) -> str:
+    """Return the unit of the coupled motion's coefficients, those of a determinant of stiffnesses."""
+    elements = folded(bogie({**p, "C_s": 0}, **draft.setting.model))
+    coordinates = [e.coordinate for e in elements if isinstance(e, Mass)]
+    yaw = sum(x.startswith("phi") for x in coordinates)
+    # A factor is the yaw of the motors, one coordinate.
+    return f"(N/m)^{len(coordinates) - yaw}·(N·m)^{yaw - len(c.factors)}"
 
 
 def state_matrix(draft: Draft) -> None:
@@ -43,7 +55,10 @@ def state_matrix(draft: Draft) -> None:
     for name, matrix in state_space_matrices(p, C_s, draft.setting.model).items():
         rows = names.states if name in "AB" else names.outputs
         columns = names.states if name in "AC" else names.inputs
-        draft.output(name, "SI", f"matrix {name}", matrix, rows=rows, columns=columns)
+        rates = [per(unit, "s") for unit in names.state_units]
+        over = names.state_units if name in "AC" else names.input_units
+        units = tuple(per(one, two) for two in over for one in (rates if name in "AB" else names.output_units))
+        draft.output(name, "SI", f"matrix {name}", matrix, rows=rows, columns=columns, units=units)
 
 
 def characteristic_polynomial(draft: Draft) -> None:
@@ -52,9 +67,10 @@ def characteristic_polynomial(draft: Draft) -> None:
     c = characteristic(p, **draft.setting.model)
     A, B = (scale_variable(part, TIME_UNIT) for part in (c.A, c.B))
     core = scale_variable(c.core(C_s), TIME_UNIT)
-    draft.output("core", "-", f"coefficients of A + C_s B {IN_SCALE}, lowest power first", core)
-    draft.output("A", "-", f"coefficients of A {IN_SCALE}, lowest power first", A)
-    draft.output("B", "-", f"coefficients of B {IN_SCALE}, lowest power first", B)
+    unit = _unit(c, p, draft)
+    draft.output("core", unit, f"coefficients of A + C_s B {IN_SCALE}, lowest power first", core)
+    draft.output("A", unit, f"coefficients of A {IN_SCALE}, lowest power first", A)
+    draft.output("B", per(unit, "N·s/m"), f"coefficients of B {IN_SCALE}, lowest power first", B)
     chi = paper_coefficients(p, C_s, **draft.setting.model, unit=TIME_UNIT)
     unscale = [(len(chi) - 1 - i) * math.log10(TIME_UNIT) for i in range(len(chi))]
     logarithms = [ca.log10(ca.fabs(x)) - y for x, y in zip(chi, unscale, strict=True)]
@@ -64,7 +80,8 @@ def characteristic_polynomial(draft: Draft) -> None:
 
 def routh_column(draft: Draft) -> None:
     """First column of Routh's array of the coupled motion: stable exactly if all entries are positive."""
-    draft.output("column", "-", f"first column of Routh's array {IN_SCALE}", generic_column(_core(draft)))
+    core, unit = _core(draft)
+    draft.output("column", unit, f"first column of Routh's array {IN_SCALE}", generic_column(core))
 
 
 def hurwitz_minors(draft: Draft) -> None:
@@ -94,7 +111,20 @@ def critical_damping(draft: Draft) -> None:
     draft.output("omega", "rad/s", "angular frequency of the motion at the boundary", ca.fabs(z[1]) * TIME_UNIT)
     draft.output("residual", "-", "a solution only if this is below 1e-10; NaN is none", residual)
     about = "derivative of C_sl with respect to each parameter"
-    draft.output("gradient", "SI", about, gradient, rows=tuple(names[k] for k in places))
+    rows = tuple(names[k] for k in places)
+    units = tuple(per("N·s/m", described(name)[0]) for name in rows)
+    draft.output("gradient", "SI", about, gradient, rows=rows, units=units)
+
+
+def critical_equations(draft: Draft) -> None:
+    """Equations of the stability boundary: both are zero where C_sl is critical and omega its frequency."""
+    names, model = draft.setting.bogie, draft.setting.model
+    p = ca.vertcat(*draft.parameters(names).values())
+    start = start_of_critical_damping(draft.setting)
+    C_sl = draft.input("C_sl", "N·s/m", "damping of the pair of yaw dampers, positive", start[0])
+    omega = draft.input("omega", "rad/s", "angular frequency of the motion", start[1])
+    residual = graphs.boundary(names, **model)(ca.vertcat(ca.log(C_sl), omega / TIME_UNIT), p)
+    draft.output("residual", "-", "real and imaginary part of the polynomial at j omega, of order one", residual)
 
 
 def rotational_resistance_function(draft: Draft) -> None:
@@ -111,16 +141,16 @@ def rotational_resistance_function(draft: Draft) -> None:
 
 def stability_margin(draft: Draft) -> None:
     """Chains that are positive exactly if every coupled mode has more than a given decay rate or damping ratio."""
-    core = _core(draft)
+    core, unit = _core(draft)
     sigma = draft.input("sigma", "1/s", "decay rate", 0.5)
     zeta = draft.input("zeta", "-", "damping ratio, 0 <= zeta < 1", 0.01)
-    draft.output("decay_column", "-", "all positive: decay rates > sigma", generic_column(_shifted(core, sigma)))
-    draft.output("ratio_column", "-", "all positive: damping ratios > zeta", sector_column(core, zeta, functions=ca))
+    draft.output("decay_column", unit, "all positive: decay rates > sigma", generic_column(_shifted(core, sigma)))
+    draft.output("ratio_column", unit, "all positive: damping ratios > zeta", sector_column(core, zeta, functions=ca))
 
 
 def margin_equations(draft: Draft) -> None:
     """Equations of an NLP for the largest margin: the polynomial, shifted by sigma, as a product of quadratics."""
-    core = _core(draft)
+    core, _ = _core(draft)
     sigma = draft.input("sigma", "1/s", "decay rate by which the polynomial is shifted; 0 for a damping ratio", 0.1)
     zeta = draft.input("zeta", "-", "damping ratio; 0 for a decay rate", 0.01)
     start = quadratic_factors(draft.setting)
@@ -159,6 +189,7 @@ BUILDERS: Mapping[str, Callable[[Draft], None]] = {
     "routh_column": routh_column,
     "hurwitz_minors": hurwitz_minors,
     "critical_damping": critical_damping,
+    "critical_equations": critical_equations,
     "rotational_resistance": rotational_resistance_function,
     "stability_margin": stability_margin,
     "margin_equations": margin_equations,

@@ -33,6 +33,8 @@ class Port:
         Of an input: its value in the problem.
     rows, columns : tuple of str
         Of a matrix: what its rows and columns belong to.
+    units : tuple of str
+        Of a matrix whose entries differ in their unit: that of each entry, column by column; `unit` is then ``SI``.
     """
 
     name: str
@@ -42,6 +44,7 @@ class Port:
     value: tuple[float, ...] = ()
     rows: tuple[str, ...] = ()
     columns: tuple[str, ...] = ()
+    units: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -102,6 +105,22 @@ def _known(inputs: Collection[str], allowed: Collection[str]) -> set[str]:
                 raise ProblemError(unknown_key(name, allowed))
     mistakes.report()
     return set(names)
+
+
+def per(unit: str, divisor: str) -> str:
+    """Return a unit divided by another.
+
+    Examples
+    --------
+    >>> per("N·s/m", "kg"), per("rad/s", "s"), per("m", "m"), per("1/s", "-"), per("-", "N/m")
+    ('N·s/m/kg', 'rad/s²', '-', '1/s', '1/(N/m)')
+    """
+    if unit == divisor or divisor == "-":
+        return "-" if unit == divisor else unit
+    if unit.endswith("/s") and divisor == "s":
+        return f"{unit}²"
+    bracketed = f"({divisor})" if set(divisor) & set("/·") else divisor
+    return f"{'1' if unit == '-' else unit}/{bracketed}"
 
 
 def described(name: str) -> tuple[str, str]:

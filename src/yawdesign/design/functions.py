@@ -185,7 +185,7 @@ def self_test(f: Documented) -> SelfTest | None:
 
 
 def versions() -> dict[str, str]:
-    """Return the versions that write functions; a CasADi file is read by the same CasADi or a later one."""
+    """Return the versions that write functions."""
     from yawdesign import __version__
 
     return {"yawdesign": __version__, "casadi": str(ca.CasadiMeta.version())}

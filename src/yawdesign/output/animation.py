@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from yawdesign.output.mode_plots import mode_shape
 from yawdesign.output.plan_view import COLOURS, REST, Body, Corner, bodies, caption, find_mode, half_size, subtitle
 from yawdesign.problem import ProblemError
-from yawdesign.study.writing import write_whole
+from yawdesign.problem.writing import write_whole
 
 if TYPE_CHECKING:
     from yawdesign.response.modes import Modes, NamedMode

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.problem import ProblemError
-from yawdesign.study.writing import write_whole
+from yawdesign.problem.writing import write_whole
 
 if TYPE_CHECKING:
     from yawdesign.response.simulate import Simulation

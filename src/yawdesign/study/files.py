@@ -11,11 +11,11 @@ import numpy as np
 
 from yawdesign.problem import ProblemError
 from yawdesign.problem.result import plain
+from yawdesign.problem.writing import whole_file
 from yawdesign.study.axes import ROWS, block
 from yawdesign.study.question import Array
 from yawdesign.study.result import UNITS, Sweep
 from yawdesign.study.store import MASKS
-from yawdesign.study.writing import whole_file
 
 if TYPE_CHECKING:
     import xarray

@@ -13,9 +13,9 @@ import numpy as np
 from yawdesign import __version__
 from yawdesign.problem import ProblemError
 from yawdesign.problem.result import plain
+from yawdesign.problem.writing import whole_file
 from yawdesign.study.question import Answers, Array
 from yawdesign.study.request import Request
-from yawdesign.study.writing import whole_file
 
 MASKS = ("finished", "recomputed", "unverified")
 

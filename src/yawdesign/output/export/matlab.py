@@ -6,6 +6,7 @@ import numpy as np
 
 from yawdesign.design.state_space import state_space
 from yawdesign.output.export.parcel import Parcel, Unavailable
+from yawdesign.output.texts import printable
 from yawdesign.problem import ProblemError
 
 STATE_SPACE = "state_space.mat"
@@ -19,7 +20,8 @@ def write_mat(parcel: Parcel, folder: Path) -> list[str]:
         model = state_space(parcel.problem)
     except ProblemError as error:
         raise Unavailable(f"{STATE_SPACE} left out: {error}") from None
-    content: dict[str, object] = {name: getattr(model, name) for name in ("A", "B", "C", "D", "C_s", "speed", "title")}
+    content: dict[str, object] = {name: getattr(model, name) for name in ("A", "B", "C", "D", "C_s", "speed")}
+    content["title"] = printable(model.title)
     for kind in ("state", "input", "output"):
         content[kind + "_names"] = np.array(getattr(model, kind + "s"), dtype=object)
         content[kind + "_units"] = np.array(getattr(model, kind + "_units"), dtype=object)

@@ -1,9 +1,10 @@
 """What every kind of exported file is made of."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from yawdesign.design.functions import Documented, SelfTest
+from yawdesign.output.export.names import Names
 from yawdesign.problem import Problem
 
 
@@ -19,11 +20,14 @@ class Parcel:
         The functions.
     tests : mapping name -> SelfTest or None
         Their self-test vectors.
+    names : Names
+        Of the C files and their symbols.
     """
 
     problem: Problem
     functions: Mapping[str, Documented]
     tests: Mapping[str, SelfTest | None]
+    names: Names = field(default_factory=Names)
 
 
 class Unavailable(Exception):  # noqa: N818 - no mistake of the user

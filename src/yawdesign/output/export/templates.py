@@ -7,8 +7,8 @@ HEADER = """\
  * or not 0 if it could not be evaluated. res[i] may be NULL for a result that is not wanted. The work vectors iw and w
  * have the lengths ..._SZ_IW and ..._SZ_W, arg and res ..._SZ_ARG and ..._SZ_RES; mem is 0. No memory is allocated.
  */
-#ifndef YAWDESIGN_H
-#define YAWDESIGN_H
+#ifndef ${guard}
+#define ${guard}
 
 #ifndef casadi_real
 #define casadi_real double
@@ -33,7 +33,7 @@ SELF_TEST = """\
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include "yawdesign.h"
+#include "$header"
 
 typedef struct {
   const char *name;
@@ -106,7 +106,7 @@ EXAMPLE = """\
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include "yawdesign.h"
+#include "$header"
 
 static double values[] = ${s}_VALUES;
 
@@ -152,23 +152,35 @@ int main(int argc, char **argv) {
 """
 
 MAKEFILE = """\
-# make: the self-test and the example; make check: run the self-test
+# make: the self-test and the example; make check: run the self-test; make library: for casadi.external and others;
+# make octave: the functions for GNU Octave
 CFLAGS = -std=c99 -O2 -Wall
 LDLIBS = -lm
 
 all: selftest example
 
-selftest: selftest.c yawdesign.c yawdesign.h
-\t$(CC) $(CFLAGS) -o $@ selftest.c yawdesign.c $(LDLIBS)
+selftest: selftest.c $prefix.c $prefix.h
+\t$$(CC) $$(CFLAGS) -o $$@ selftest.c $prefix.c $$(LDLIBS)
 
-example: example.c yawdesign.c yawdesign.h
-\t$(CC) $(CFLAGS) -o $@ example.c yawdesign.c $(LDLIBS)
+example: example.c $prefix.c $prefix.h
+\t$$(CC) $$(CFLAGS) -o $$@ example.c $prefix.c $$(LDLIBS)
 
 check: selftest
 \t./selftest
 
-clean:
-\trm -f selftest example
+# Not $prefix.so: Python would take it for a module of that name.
+library: lib$prefix.so
 
-.PHONY: all check clean
+lib$prefix.so: $prefix.c
+\t$$(CC) $$(CFLAGS) -shared -fPIC -o $$@ $prefix.c $$(LDLIBS)
+
+octave: $prefix.mex
+
+$prefix.mex: $prefix.c
+\tmkoctfile --mex -DMATLAB_MEX_FILE $prefix.c
+
+clean:
+\trm -f selftest example lib$prefix.so $prefix.mex $prefix.o
+
+.PHONY: all check library octave clean
 """

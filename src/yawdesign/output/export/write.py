@@ -10,8 +10,8 @@ from yawdesign.output.export import c_files
 from yawdesign.output.export.folder import exported_folder, write_text
 from yawdesign.output.export.manifest import write_manifest
 from yawdesign.output.export.matlab import write_mat
+from yawdesign.output.export.names import PREFIX, Names
 from yawdesign.output.export.parcel import Parcel, Unavailable
-from yawdesign.output.export.templates import MAKEFILE
 from yawdesign.output.fmi.archive import write_fmu
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
@@ -51,16 +51,17 @@ def write_casadi(parcel: Parcel, folder: Path) -> list[str]:
 
 def write_c(parcel: Parcel, folder: Path) -> list[str]:
     """Write C source and header of all functions, a self-test, an example and a Makefile."""
-    source = c_source("yawdesign", {c_files.symbol(name): f.function for name, f in parcel.functions.items()})
+    names = parcel.names
+    source = c_source(names.prefix, {names.symbol(name): f.function for name, f in parcel.functions.items()})
     title = f"{parcel.problem.title or 'Bogie'} ({parcel.problem.bogie.kind}, {parcel.problem.equations})"
     about = f"{title}: functions written by yawdesign {versions()['yawdesign']} with CasADi {versions()['casadi']}"
     chosen = "critical_damping" if "critical_damping" in parcel.functions else next(iter(parcel.functions))
     texts = {
-        c_files.SOURCE: source,
-        c_files.HEADER_FILE: c_files.header(parcel.functions, about),
-        "selftest.c": c_files.self_test_source({name: test for name, test in parcel.tests.items() if test}),
-        "example.c": c_files.example_source(chosen, parcel.functions[chosen]),
-        "Makefile": MAKEFILE,
+        names.source: source,
+        names.header: c_files.header(parcel.functions, about, names),
+        "selftest.c": c_files.self_test_source({name: test for name, test in parcel.tests.items() if test}, names),
+        "example.c": c_files.example_source(chosen, parcel.functions[chosen], names),
+        "Makefile": c_files.makefile(names),
     }
     return [write_text(folder / name, text) for name, text in texts.items()]
 
@@ -91,6 +92,7 @@ def export(
     inputs: Collection[str] | None = None,
     only: Collection[str] | None = None,
     formats: Collection[str] | None = None,
+    prefix: str = PREFIX,
     force: bool = False,
 ) -> Export:
     """Write a problem's functions into a folder, for use in other codes without this package.
@@ -106,6 +108,9 @@ def export(
         names in `only` means nothing but that kind.
     formats : collection of str, optional
         ``casadi``, ``c``, ``mat``, ``fmu``; all if not given.
+    prefix : str
+        What the names of the C files and all symbols in them begin with: several exports with prefixes of their own
+        can be linked into one program.
     force : bool
         Replace the files of an earlier export in a folder that is not empty. Other files are never touched.
 
@@ -117,16 +122,16 @@ def export(
     Raises
     ------
     ProblemError
-        If a name is not known, or the folder is taken.
+        If a name is not known, the prefix is not the beginning of a C identifier, or the folder is taken.
     OSError
         If the folder cannot be written.
     """
     only, formats = _sorted_out(only, formats)
-    wanted = _formats(formats)
+    wanted, names = _formats(formats), Names(prefix)
     documented = functions(problem, inputs, only).documented
     if not documented:
         raise ProblemError("no function is named: leave `only` out to export all")
-    parcel = Parcel(problem, documented, {name: self_test(f) for name, f in documented.items()})
+    parcel = Parcel(problem, documented, {name: self_test(f) for name, f in documented.items()}, names)
     with exported_folder(Path(to), force=force) as folder:
         files, notes = _write(parcel, wanted, folder)
         files.append(write_manifest(parcel, files, notes, folder))

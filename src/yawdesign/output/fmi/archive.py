@@ -15,8 +15,8 @@ from yawdesign.output.fmi.description import IDENTIFIER, build_description, head
 from yawdesign.output.fmi.variables import variables
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.result import Result
+from yawdesign.problem.writing import write_whole
 from yawdesign.stability.verdict import given_damping
-from yawdesign.study.writing import write_whole
 
 REMEDY = "the FMU holds its C code only: before it runs it must be compiled, such as with `fmpy compile`"
 

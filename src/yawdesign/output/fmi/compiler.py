@@ -4,15 +4,16 @@ import os
 import platform
 import shlex
 import shutil
-import subprocess
 import sys
 from pathlib import Path
+
+from yawdesign.stability.many.commands import run
 
 _COMPILERS = ("cc", "gcc", "clang")
 _MACHINES = {"amd64": "x86_64", "arm64": "aarch64", "i386": "x86", "i686": "x86"}
 _SYSTEMS = {"win32": ("windows", ".dll"), "darwin": ("darwin", ".dylib")}
 _OPTIONS = ("-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-fvisibility=hidden", "-shared")
-_PATIENCE = 120  # s
+_TIME_LIMIT = 30.0  # s; it takes less than one
 
 
 class CannotCompileError(Exception):
@@ -61,8 +62,10 @@ def compile_library(source: Path, library: Path) -> None:
     """
     command = [*compiler(), *_OPTIONS, "-o", str(library), str(source)]
     try:
-        done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=_PATIENCE, check=False)
-    except (OSError, subprocess.TimeoutExpired) as error:
+        done = run(command, _TIME_LIMIT)
+    except TimeoutError as error:
+        raise CannotCompileError(f"the C compiler {error}") from None
+    except OSError as error:
         raise CannotCompileError(f"the C compiler {command[0]} cannot be run: {error}") from None
     if done.returncode or not library.exists():
         first = next((line for line in done.stderr.splitlines() if "error" in line), done.stderr.strip()[:200])

@@ -5,6 +5,7 @@ from xml.etree import ElementTree
 
 from yawdesign import __version__
 from yawdesign.output.fmi.variables import Variable
+from yawdesign.output.texts import printable
 from yawdesign.problem.units import parse_unit
 
 IDENTIFIER = "yawdesign_bogie"
@@ -27,7 +28,7 @@ def model_description(table: Sequence[Variable], *, token: str, title: str) -> s
         fmiVersion="3.0",
         modelName=IDENTIFIER,
         instantiationToken=token,
-        description="".join(char if char.isprintable() else " " for char in title),
+        description=printable(title),
         generationTool=f"yawdesign {__version__}",
         variableNamingConvention="structured",
     )

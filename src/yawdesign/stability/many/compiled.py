@@ -1,13 +1,13 @@
 """Compiled code as an optional speed-up: compiled once, kept in the user's cache folder, and never a reason to fail."""
 
+import contextlib
 import ctypes
 import hashlib
 import os
 import platform
 import shutil
-import subprocess
-import sys
 import tempfile
+import warnings
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
@@ -15,7 +15,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign import __version__
+from yawdesign.stability.many import library_cache
+from yawdesign.stability.many.commands import run
 
 Float = NDArray[np.float64]
 Run = Callable[[Sequence[Float], Float, int, int], None]
@@ -24,7 +25,10 @@ WIDTH = 8  # points in a vector
 SWITCH = "YAWDESIGN_CC"  # environment variable that names a compiler; empty: none
 # Contraction to fused multiply-add would change the last bits. No warnings: nobody would see them.
 FLAGS = ("-O1", "-std=gnu99", "-shared", "-fPIC", "-ffp-contract=off", "-w")
-TIME_LIMIT = 60.0  # seconds for a compilation
+TIME_LIMIT = 20.0  # seconds for a compilation, which takes half a second
+ANSWER_LIMIT = 5.0  # seconds for a compiler to tell its version
+
+_hanging: set[str] = set()  # compilers that did not finish; they are not asked again
 
 FRAME = """\
 typedef double vector __attribute__((vector_size(%(width)d * sizeof(double)), aligned(8)));
@@ -66,14 +70,37 @@ def load(body: str) -> Run | None:
     Returns
     -------
     callable or None
-        None where there is no compiler, or it does not accept the code, or nothing can be written.
+        None where there is no compiler, or it does not accept the code or does not finish; a note says so.
     """
-    source = FRAME % {"width": WIDTH, "body": body}
-    try:
-        library = _library(source)
-        return None if library is None else _callable(ctypes.CDLL(str(library)))
-    except (OSError, subprocess.SubprocessError, AttributeError):
+    compiler = _compiler()
+    if compiler is None or compiler[0] in _hanging:
         return None
+    try:
+        return _callable(_library(FRAME % {"width": WIDTH, "body": body}, compiler))
+    except TimeoutError as error:
+        _hanging.add(compiler[0])
+        note(str(error))
+    except (OSError, RuntimeError, ValueError, AttributeError) as error:
+        note(f"{compiler[0]}: {_told(error)}")
+    return None
+
+
+@cache
+def note(reason: str) -> None:
+    """Warn, once for each reason, that NumPy goes on alone."""
+    warnings.warn(f"going on without compiled code, which takes longer: {reason}", RuntimeWarning, stacklevel=2)
+
+
+@cache
+def _not_kept(reason: str) -> None:
+    warnings.warn(f"compiled code is not kept for the next run: {reason}", RuntimeWarning, stacklevel=2)
+
+
+def _told(error: Exception) -> str:
+    """Return what went wrong in words, without the system's number for it."""
+    if isinstance(error, OSError) and error.strerror and error.filename:
+        return f"{error.strerror}: {error.filename}"
+    return str(error)
 
 
 def _callable(library: ctypes.CDLL) -> Run:
@@ -89,48 +116,53 @@ def _callable(library: ctypes.CDLL) -> Run:
     return run
 
 
-def _library(source: str) -> Path | None:
+def _library(source: str, compiler: tuple[str, str]) -> ctypes.CDLL:
     """Return the shared library of a source, compiled if this machine has not compiled it yet."""
-    compiler = _compiler()
-    if compiler is None:
-        return None
     key = hashlib.sha256("\n".join([source, *FLAGS, *compiler, _processor()]).encode()).hexdigest()[:20]
-    place = cache_folder() / f"{key}{'.dll' if sys.platform == 'win32' else '.so'}"
-    if not place.exists():
-        place.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
-        _compile(source, compiler[0], place)
-    return place
-
-
-def _compile(source: str, compiler: str, place: Path) -> None:
-    with tempfile.TemporaryDirectory(dir=place.parent) as folder:
-        code, library = Path(folder, "code.c"), Path(folder, place.name)
-        code.write_text(source, encoding="ascii")
-        command = [compiler, *FLAGS, "-o", str(library), str(code)]
+    with contextlib.suppress(OSError):
+        if kept := library_cache.find(key):
+            return ctypes.CDLL(str(kept))
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        library = _compile(source, compiler[0], Path(folder))
         try:
-            _call([*command, "-march=native"])
-        except subprocess.CalledProcessError:
-            _call(command)
-        library.replace(place)
+            library = library_cache.keep(key, library.read_bytes())
+        except OSError as error:
+            _not_kept(_told(error))
+        return ctypes.CDLL(str(library))  # what is loaded stays so without its file
 
 
-def _call(command: list[str]) -> str:
-    done = subprocess.run(command, check=True, capture_output=True, timeout=TIME_LIMIT, text=True, errors="replace")
-    return done.stdout
+def _compile(source: str, compiler: str, folder: Path) -> Path:
+    code, library = folder / "code.c", folder / f"code{library_cache.SUFFIX}"
+    code.write_text(source, encoding="ascii")
+    command = [compiler, *FLAGS, "-o", str(library), str(code)]
+    for options in (["-march=native"], []):
+        done = run([*command, *options], TIME_LIMIT)
+        if done.returncode == 0 and library.exists():
+            return library
+    raise RuntimeError(f"exit code {done.returncode}, {done.stderr.strip()[:200] or 'without a library'}")
 
 
 @cache
 def _compiler() -> tuple[str, str] | None:
     """Return path and version of a C compiler that knows vector types."""
-    names = [os.environ[SWITCH]] if SWITCH in os.environ else ["gcc", "clang", "cc"]
-    for name in names:
-        path = shutil.which(name) if name else None
-        if path:
-            try:
-                return path, _call([path, "--version"])
-            except (OSError, subprocess.SubprocessError):
-                continue
-    return None
+    wanted = os.environ.get(SWITCH)
+    if wanted and not shutil.which(wanted):
+        note(f"{SWITCH}={wanted} names no program")
+    names = ["gcc", "clang", "cc"] if wanted is None else [wanted]
+    return next(filter(None, map(_answer, names)), None)
+
+
+def _answer(name: str) -> tuple[str, str] | None:
+    """Return path and version of a compiler, if it is there and tells its version."""
+    path = shutil.which(name) if name else None
+    if path is None:
+        return None
+    try:
+        done = run([path, "--version"], ANSWER_LIMIT)
+    except OSError as error:
+        note(_told(error))
+        return None
+    return (path, done.stdout) if done.returncode == 0 else None
 
 
 @cache
@@ -143,14 +175,3 @@ def _processor() -> str:
         }
         return "\n".join(sorted(kinds))
     return f"{platform.machine()} {platform.processor()} {platform.platform()}"
-
-
-def cache_folder() -> Path:
-    """Return the folder in which this version keeps what it compiled."""
-    if sys.platform == "win32":
-        base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
-    elif sys.platform == "darwin":
-        base = Path.home() / "Library" / "Caches"
-    else:
-        base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    return base / "yawdesign" / __version__

@@ -129,6 +129,8 @@ class Tape:
                 self._tried = True
                 run = compiled.load(self.source())
                 self._fast = run if run and self._agrees(run) else None
+                if run and not self._fast:
+                    compiled.note("it does not give the numbers of NumPy")
             return self._fast or self._interpret
 
     def _agrees(self, run: Run) -> bool:
