@@ -33,8 +33,8 @@ REMEDIES = {
     UNDAMPED: "a motion that no yaw damper reaches is undamped: the motors yaw on their own suspension; give "
     "K_mphi and C_mphi values above zero",
     "no upper limit": "stable up to any damping, and no curve is given that limits it: add `curve` to choose C_s",
-    "unverified": "two independent counts of the unstable roots differ: do not use this result; the parameters are "
-    "too extreme for double precision, or a root lies on the boundary for every C_s",
+    "unverified": "two independent ways to the critical values or to the verdict differ: do not use this result; two "
+    "critical values coincide, the parameters are too extreme, or a root lies on the boundary for every C_s",
 }
 
 
@@ -109,11 +109,12 @@ def design(problem: Problem) -> ForwardDesign:
     damped = factors_damped(problem)
     stable = reduce(intersect, [sets.stable_intervals for sets in found]) if damped else ()
     upper = None if problem.curve is None else float(curving_limit(p, problem.curve))
-    checked = all(sets.checked for sets in found)
     interval = _chosen(stable, np.inf if upper is None else upper)
+    golden = _golden(interval)
+    checked = all(sets.checked for sets in found) and (golden is None or _is_stable(problem, golden))
     status = _status(stable, upper, interval) if damped else UNDAMPED
     status = status if checked else "unverified"
-    C_s = _golden(interval) if checked else None
+    C_s = golden if checked else None
     C_sl = interval[0] if interval else (stable[0][0] if stable else None)
     return ForwardDesign(
         critical=tuple(
@@ -125,7 +126,7 @@ def design(problem: Problem) -> ForwardDesign:
         C_s=C_s,
         status=status,
         message=REMEDIES[status],
-        stable=C_s is not None and _is_stable(problem, C_s),
+        stable=C_s is not None,
         rotational_resistance=_resistance(problem, C_s),
         sensitivity=_sensitivity(problem, found, C_sl),
         load=None if problem.curve is None else problem.curve.load,
@@ -177,8 +178,10 @@ def _at_speed(x: CriticalValue, speed: float) -> Critical:
 
 
 def _is_stable(problem: Problem, C_s: float) -> bool:
+    """Return whether the eigenvalues and Routh's array confirm a design that lies in a stable interval."""
     p = problem.bogie.parameters()
-    return all(stability_at(case.applied(p), C_s, **problem.model).stable for case in conditions(problem))
+    verdicts = [stability_at(case.applied(p), C_s, **problem.model) for case in conditions(problem)]
+    return all(x.stable and x.checked for x in verdicts)
 
 
 def _resistance(problem: Problem, C_s: float | None) -> float | None:
