@@ -163,7 +163,7 @@ def full_disk(monkeypatch, *names):
     opened = Path.open
 
     def full(self, mode="r", *more, **options):
-        if "w" in mode and any(name in self.name for name in names):
+        if {*mode} & {*"w+"} and any(name in self.name for name in names):
             raise OSError(errno.ENOSPC, "No space left on device", str(self))
         return opened(self, mode, *more, **options)
 

@@ -236,7 +236,7 @@ def test_a_file_of_another_sweep_is_refused(tmp_path):
 def test_a_file_of_another_version_is_refused(monkeypatch, tmp_path):
     file = tmp_path / "kept.npz"
     yd.sweep(PRINTED, resume=file, **GRID)
-    monkeypatch.setattr("yawdesign.study.store.__version__", "9.9")
+    monkeypatch.setattr("yawdesign.study.keeping.__version__", "9.9")
     with pytest.raises(yd.ProblemError, match="version"):
         yd.sweep(PRINTED, resume=file, **GRID)
 
