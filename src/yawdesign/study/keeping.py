@@ -161,6 +161,8 @@ def _array(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> Array:
             raise ValueError("an unknown form of arrays")
         shape, by_columns, kind = npy.read_array_header_1_0(member)
         flat: Array = np.frombuffer(member.read(), kind)
+    if flat.size != prod(shape):
+        raise ValueError("more or less data than the head promises")
     return flat.reshape(shape, order="F" if by_columns else "C").copy()
 
 

@@ -171,8 +171,9 @@ class _Kept:
     def save(self) -> bool:
         try:
             self.file.write(self.store)
-        except (OSError, ProblemError) as error:
-            why = error if isinstance(error, ProblemError) else f"{error.strerror or error}: make room"
+        except (OSError, MemoryError, ProblemError) as error:
+            room = "" if isinstance(error, ProblemError) else ": make room"
+            why = f"{getattr(error, 'strerror', None) or error}{room}"
             text = f"{self.path} could not be written ({why}); the sweep goes on and tries again"
             if not self.trouble:
                 warnings.warn(text, RuntimeWarning, stacklevel=2)
