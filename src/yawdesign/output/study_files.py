@@ -87,6 +87,8 @@ class Outputs:
 
     def rescued(self, sweep: Sweep, reason: str) -> str:
         """Keep a sweep where there is room for it, and return what to tell; requests to stop wait."""
+        if not sweep.finished.any():
+            return f"error: {reason}"
         with held():
             for path in self._places():
                 try:

@@ -23,6 +23,7 @@ from yawdesign.study.writing import whole_file
 
 DIGEST = 64  # characters of a SHA-256 of all before it, which end the file as the comment of the archive
 TEXTS = ("status",)  # columns that hold texts
+SEVERAL = ("critical", "critical_speed", "omega", "unstable_roots")  # columns with several values at a point
 REMEDY = "give another name, or remove it to begin anew"
 
 
@@ -69,7 +70,7 @@ class KeptFile:
         """
         with held():
             self.read(store)
-            if self._seen is None or (store.finished & ~self._held).any():
+            if (store.finished & (~self._held | (self._seen is None))).any():
                 _write(self.path, self.asked, store, replace=self._seen is not None)
                 self._seen, self._held = _stamp(self.path), store.finished.copy()
 
@@ -204,6 +205,6 @@ def _column(name: str, column: Array, size: int) -> Array:
         raise ValueError(f"{name} is no column of a sweep")
     if column.dtype.kind not in ("U" if name in TEXTS else "fib"):
         raise ValueError(f"{name} has the kind {column.dtype}")
-    if column.shape[:1] != (size,) or column.ndim > 2 or prod(column.shape) == 0:
+    if column.shape[:1] != (size,) or column.ndim != (2 if name in SEVERAL else 1) or not column.size:
         raise ValueError(f"{name} has the shape {column.shape}")
     return column

@@ -203,7 +203,8 @@ class Sweep(Result):
         for name in MASKS:
             setattr(store, name, getattr(self, name).ravel().copy())
         several = len(self.axes)
-        store.columns = {n: x.reshape(store.size, *x.shape[several:]).copy() for n, x in self.columns.items()}
+        if store.finished.any():
+            store.columns = {n: x.reshape(store.size, *x.shape[several:]).copy() for n, x in self.columns.items()}
         KeptFile(Path(path), self.request).write(store)
 
     def __repr__(self) -> str:

@@ -142,7 +142,7 @@ def swept(
         result = gathered(asked, store, time.perf_counter() - begin, boundary)
         if failed is not None:
             stopped = isinstance(failed, KeyboardInterrupt)
-            raise IncompleteSweepError(_reason(store, failed), _remedy(kept), result, stopped) from failed
+            raise IncompleteSweepError(_reason(store, failed), _remedy(store, kept), result, stopped) from failed
         return result
 
 
@@ -191,7 +191,9 @@ def _reason(store: Store, failed: BaseException) -> str:
     return f"{store.finished.sum()} of {store.size} points are finished, then {happened.rstrip('.')}"
 
 
-def _remedy(kept: _Kept | None) -> str:
+def _remedy(store: Store, kept: _Kept | None) -> str:
+    if not store.finished.any():
+        return "There is nothing to keep"
     if kept and not kept.trouble:
         return f"What is finished is in {kept.path}: the same sweep with resume={str(kept.path)!r} does the rest"
     name = str(kept.path) if kept else "FILE.npz"
