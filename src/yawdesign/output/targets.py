@@ -54,9 +54,10 @@ def checked_targets(targets: Iterable[Target], inputs: Iterable[str]) -> list[Pa
         paths.append(path)
         with mistakes.under(target.option):
             if path is not None:
-                _check_others(path, taken)
-                _check(path, target)
+                others = tuple(taken)
                 taken.append((path, f"is also the file of {target.option}"))
+                _check_others(path, others)
+                _check(path, target)
     mistakes.report()
     return paths
 
@@ -72,8 +73,8 @@ def _check(path: Path, target: Target) -> None:
         raise ProblemError(f"{path} exists: choose another name, or give --force to replace it")
 
 
-def _check_others(path: Path, taken: list[tuple[Path, str]]) -> None:
-    for other, why in taken:
+def _check_others(path: Path, others: Iterable[tuple[Path, str]]) -> None:
+    for other, why in others:
         if not is_stream(path) and _same(path, other):
             raise ProblemError(f"{path} {why}: choose another name")
 
