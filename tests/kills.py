@@ -19,7 +19,7 @@ import yawdesign as yd
 from yawdesign import cli
 from yawdesign.output import plots, study_files, study_plots, study_tables, targets  # noqa: F401 - before the forks
 from yawdesign.problem import ProblemError
-from yawdesign.study import chunks, keeping, sweep, writing
+from yawdesign.study import chunks, keeping, stopping, sweep, writing
 from yawdesign.study.keeping import KeptFile
 from yawdesign.study.request import request
 from yawdesign.study.store import Store
@@ -69,9 +69,12 @@ class Trial:
             if at:
                 kill_at(at, number, str(self.folder), told)
             sys.argv = ["yawdesign", *self.arguments()]
-            cli.main()
-        except SystemExit as end:
-            code = end.code or 0
+            try:
+                cli.main()
+            except SystemExit as end:
+                code = end.code or 0
+        except KeyboardInterrupt as error:  # before the command or after it; inside nothing may escape
+            code = 99 if isinstance(error, stopping.Stopped) else 130
         finally:
             os._exit(code)
 
@@ -158,8 +161,8 @@ def faults(trial, number, end):
         promised = kept if trial.resume else 0
     else:
         promised = 0 if written == set(trial.outputs) else finished
-        at_the_start = end == 130 and not finished  # before the command has begun
-        if end not in (0, 128 + number, -number) and not at_the_start:
+        outside = end == 130 and (not finished or written == set(trial.outputs))  # of the command: Python's own answer
+        if end not in (0, 128 + number, -number) and not outside:
             yield f"exit code {end}"
     if left < promised:
         yield f"{promised - left} of {promised} finished points are lost"

@@ -156,7 +156,7 @@ def sweep(
 
         outputs = Outputs.checked(file, over, csv=csv, npz=npz, plot=plot, resume=resume, force=force)
         axes = [(name, values) for name, _, values in (text.partition("=") for text in over)]
-        with held(), workers(jobs, dask) as executor:
+        with workers(jobs, dask) as executor, held():
             options = {"hold": hold, "executor": executor, "resume": resume}
             result = _swept(problem, of, axes, outputs, options)
             _write_sweep(result, outputs, as_json)
@@ -436,12 +436,13 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")  # a console without µ or · shows ? and goes on
-    from yawdesign.study.stopping import watched
+    from yawdesign.study.stopping import ignore_requests, watched
 
     try:
         with watched():
             app()
     except KeyboardInterrupt as error:
+        ignore_requests()
         _tell("interrupted")
         sys.exit(_stopped(error))
 

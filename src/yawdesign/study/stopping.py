@@ -6,8 +6,8 @@ other. Only the main thread gets signals, so in other threads both do nothing. A
 
 import signal
 import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from typing import Any
 
 SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name))
@@ -65,16 +65,18 @@ def watched() -> Iterator[None]:
             signal.signal(number, _REQUESTS)
         yield
     finally:
+        _REQUESTS.open = False
         for number, handler in before.items():
             signal.signal(number, handler)
-        _REQUESTS.watched, _REQUESTS.waiting = False, None
+        _REQUESTS.watched, _REQUESTS.waiting, _REQUESTS.open = False, None, True
 
 
 @contextmanager
-def held() -> Iterator[None]:
-    """Let requests to stop wait until the block is done."""
+def held() -> Iterator[Callable[[], AbstractContextManager[None]]]:
+    """Let requests to stop wait until the block is done; give a block inside which they do what they do outside."""
+    outside = _REQUESTS.open
     with _obeying(False):
-        yield
+        yield lambda: _obeying(outside)
 
 
 @contextmanager
@@ -103,6 +105,12 @@ def _obeying(obey: bool) -> Iterator[None]:
         finally:
             _REQUESTS.open = before
         _REQUESTS.obey()
+
+
+def ignore_requests() -> None:
+    """Do nothing any more when somebody asks to stop: the program is at its end."""
+    for number in SIGNALS:
+        signal.signal(number, signal.SIG_IGN)
 
 
 def request_to_stop() -> Stopped | None:

@@ -89,18 +89,20 @@ def _beside(path: Path, replace: bool) -> Iterator[BinaryIO]:
     place = path.resolve() if replace else path
     beside = place.with_name(f".{place.name[:40]}.{secrets.token_hex(4)}.part")
     mode = place.stat().st_mode & 0o777 if place.exists() else None
-    try:
-        beside.touch(0o666 if mode is None else 0o600, exist_ok=False)
-        with beside.open("r+b") as file:
-            yield file
-            file.flush()
-            _synchronise(file.fileno())
-        if mode is not None:
-            beside.chmod(mode)
-        _put(beside, place, replace)
-        _synchronise_folder(place.parent)
-    finally:
-        beside.unlink(missing_ok=True)
+    with held() as as_outside:
+        try:
+            beside.touch(0o666 if mode is None else 0o600, exist_ok=False)
+            with beside.open("r+b") as file:
+                with as_outside():
+                    yield file
+                file.flush()
+                _synchronise(file.fileno())
+            if mode is not None:
+                beside.chmod(mode)
+            _put(beside, place, replace)
+            _synchronise_folder(place.parent)
+        finally:
+            beside.unlink(missing_ok=True)
 
 
 def _put(beside: Path, place: Path, replace: bool) -> None:
