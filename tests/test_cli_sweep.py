@@ -1,7 +1,10 @@
 """The command sweep: answers by the contract, files, exit codes, and what it keeps when something breaks."""
 
 import errno
+import functools
+import importlib
 import json
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +15,7 @@ from typer.testing import CliRunner
 
 import yawdesign as yd
 from yawdesign.cli import app
+from yawdesign.problem.stopping import Stopped
 from yawdesign.study import chunks
 
 PROBLEM = Path(__file__).parents[1] / "problems" / "table1.yaml"
@@ -26,7 +30,7 @@ def in_a_folder_of_its_own(tmp_path, monkeypatch):
 
 def run(*arguments, code=0):
     result = RUN.invoke(app, ["sweep", str(PROBLEM), *map(str, arguments)])
-    assert result.exit_code == code, result.output + str(result.exception)
+    assert code in (None, result.exit_code), result.output + str(result.exception)
     return result
 
 
@@ -163,7 +167,7 @@ def full_disk(monkeypatch, *names):
     opened = Path.open
 
     def full(self, mode="r", *more, **options):
-        if "w" in mode and any(name in self.name for name in names):
+        if {*mode} & {*"w+"} and any(name in self.name for name in names):
             raise OSError(errno.ENOSPC, "No space left on device", str(self))
         return opened(self, mode, *more, **options)
 
@@ -202,3 +206,123 @@ def test_a_device_that_is_full():
     assert "the answer could not be written" in done.stderr
     assert "--resume table1.sweep.npz" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def whole_sweep(name):
+    """Return the values that a kept file has for CURVE, of which nothing is computed again."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(chunks, "answer", None)
+        return answer(*CURVE, "--resume", name)["values"]
+
+
+@pytest.mark.parametrize(("number", "resume"), [(signal.SIGINT, ()), (signal.SIGTERM, ("--resume", "mine.npz"))])
+@pytest.mark.parametrize(
+    ("where", "name"),
+    [
+        ("yawdesign.study.files", "_rows"),
+        ("yawdesign.study.store", "write_arrays"),
+        ("yawdesign.study.keeping", "_write"),
+        ("yawdesign.study.sweep", "gathered"),
+        ("yawdesign.study.sweep", "_boundary"),
+        ("yawdesign.output.study_files", "draw"),
+        ("yawdesign.output.plots", "write_whole"),
+        ("yawdesign.cli", "_show_sweep"),
+        ("numpy", "savez_compressed"),
+        ("numpy.lib.format", "write_array"),
+        ("zipfile", "ZipFile.close"),
+    ],
+)
+def test_a_request_to_stop_loses_no_finished_sweep(monkeypatch, where, name, resume, number, tmp_path):
+    """Whatever is being done when it comes, and when people ask again and again."""
+    expected = answer(*CURVE)["values"]
+    module = importlib.import_module(where)
+    *inside, last = name.split(".")
+    home = functools.reduce(getattr, inside, module)
+    done = getattr(home, last)
+
+    def asked(*arguments, **options):
+        signal.raise_signal(number)
+        found = done(*arguments, **options)
+        signal.raise_signal(number)
+        return found
+
+    monkeypatch.setattr(home, last, asked)
+    if name == "write_arrays":
+        monkeypatch.setattr("yawdesign.study.files.write_arrays", asked)
+    picture = ("--plot", "x.svg") if where.startswith("yawdesign.output") else ()
+    result = run(*CURVE, "--csv", "x.csv", "--npz", "x.npz", *picture, *resume, code=None)
+    monkeypatch.undo()
+    monkeypatch.chdir(tmp_path)
+    kept = "mine.npz" if resume else "table1.sweep.npz"
+    if name == "_write" and not resume:
+        assert result.exit_code == 0  # there is nothing to keep
+        return
+    assert result.exit_code == 128 + number
+    assert f"--resume {kept}" in result.stderr
+    assert whole_sweep(kept) == expected
+    left = {path.name for path in tmp_path.iterdir()} - {kept, "x.csv", "x.npz", "x.svg"}
+    assert not left
+    again = ["--force"] if "--force" in result.stderr else []
+    run(*CURVE, "--csv", "x.csv", "--npz", "x.npz", "--resume", kept, *again)
+    assert len(np.load("x.npz")["values"]) == 5
+
+
+def test_the_terminal_is_closed(monkeypatch):
+    broken(monkeypatch, Stopped(signal.SIGHUP))
+    done = run(*CURVE, code=129)
+    assert "2 of 5 points are finished, then it was stopped (SIGHUP)" in done.stderr
+
+
+def test_work_kept_of_another_sweep_is_not_overwritten(monkeypatch, tmp_path):
+    other = yd.sweep(yd.load(PROBLEM), of="stable", C_s=[1e5, 2e5])
+    other.keep("table1.sweep.npz")
+    Path("table1.sweep-2.npz").write_text("something else")
+    before = Path("table1.sweep.npz").read_bytes()
+    for _ in range(2):  # the same sweep adds to its file
+        with monkeypatch.context() as patch:
+            broken(patch, KeyboardInterrupt())
+            assert "--resume table1.sweep-3.npz" in run(*CURVE, code=130).stderr
+    assert Path("table1.sweep.npz").read_bytes() == before
+    assert Path("table1.sweep-2.npz").read_text() == "something else"
+
+
+def test_an_error_of_any_kind_while_a_file_is_written_keeps_the_sweep(monkeypatch, tmp_path):
+    def fails(result):
+        raise RuntimeError("no such font")
+
+    monkeypatch.setattr("yawdesign.output.study_files.draw", fails)
+    done = RUN.invoke(app, ["sweep", str(PROBLEM), *CURVE, "--plot", "x.png", "--csv", "x.csv"])
+    assert isinstance(done.exception, RuntimeError)
+    assert "no such font" in done.stderr
+    assert "repeat the command with --resume table1.sweep.npz --force" in done.stderr
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["table1.sweep.npz", "x.csv"]
+
+
+def test_outputs_replace_nothing_unasked(tmp_path):
+    problem = tmp_path / "p.yaml"
+    problem.write_text(PROBLEM.read_text())
+    (tmp_path / "link.yaml").symlink_to(problem)
+    for name in ("p.yaml", "link.yaml", "./p.yaml"):
+        for force in ((), ("--force",)):
+            result = RUN.invoke(app, ["sweep", "p.yaml", *CURVE, "--csv", name, *force])
+            assert result.exit_code == 2
+            assert "--csv: " in result.stderr
+            assert "is what the command reads" in result.stderr
+    run(*CURVE, "--csv", "x.csv")
+    before = Path("x.csv").read_bytes()
+    refused = run(*CURVE, "--csv", "x.csv", code=2)
+    assert "x.csv exists: choose another name, or give --force" in refused.stderr
+    assert Path("x.csv").read_bytes() == before
+    run("--over", "f_m=2:4:3", "--csv", "x.csv", "--force")
+    assert Path("x.csv").read_bytes() != before
+    assert problem.read_text() == PROBLEM.read_text()
+
+
+@pytest.mark.parametrize(
+    "options",
+    [("--csv", "x", "--npz", "x"), ("--npz", "x", "--resume", "./x"), ("--plot", "x.png", "--csv", "x.png")],
+)
+def test_two_outputs_of_one_name(options, tmp_path):
+    done = run(*CURVE, *options, "--force", code=2)
+    assert f"is also the file of {options[0] if options[0] != '--plot' else '--csv'}" in done.stderr
+    assert list(tmp_path.iterdir()) == []

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
+from signal import SIGINT
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -15,7 +16,7 @@ import typer
 if TYPE_CHECKING:
     from yawdesign.problem import Problem
 
-DONE, NOTHING_FEASIBLE, BAD_INPUT, SOLVER_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
+DONE, NOTHING_FEASIBLE, BAD_INPUT, SOLVER_FAILED, STOPPED = 0, 1, 2, 3, 128  # 128 and the number of the signal
 
 app = typer.Typer(
     help="Yaw damper design for motor bogies: hunting stability, curving limit and optimum.",
@@ -27,6 +28,7 @@ app = typer.Typer(
 
 ProblemFile = Annotated[str, typer.Argument(metavar="PROBLEM.YAML", help="The problem file.", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the result as JSON, in SI units.")]
+Force = Annotated[bool, typer.Option("--force", help="Replace files that are there.")]
 
 
 @contextmanager
@@ -41,6 +43,14 @@ def _mistakes_shown() -> Iterator[None]:
     except OSError as error:
         _tell(f"error: {error.strerror or error}" + (f": {error.filename}" if error.filename else ""))
         raise typer.Exit(BAD_INPUT) from None
+    except KeyboardInterrupt as error:
+        _tell("interrupted")
+        raise typer.Exit(_stopped(error)) from None
+
+
+def _stopped(error: BaseException | None) -> int:
+    """Return the exit code of somebody's request to stop: 130 after Ctrl-C."""
+    return STOPPED + getattr(error, "number", SIGINT)
 
 
 def _tell(text: str) -> None:
@@ -134,31 +144,55 @@ def sweep(
     jobs: Annotated[int, typer.Option(min=1, help="Number of processes.")] = 1,
     dask: Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")] = None,
     resume: Annotated[str | None, typer.Option(help="File that keeps unfinished work, and goes on from it.")] = None,
+    force: Force = False,
     as_json: AsJson = False,
 ) -> None:
     """Answer one question at every point of a grid of parameters: curves, maps, stability charts."""
     with _mistakes_shown():
         problem = _read(file)
         from yawdesign.output.study_files import Outputs
+        from yawdesign.problem.stopping import held
         from yawdesign.study.chunks import workers
-        from yawdesign.study.sweep import IncompleteSweepError, swept
 
-        outputs = Outputs.checked(file, over, csv=csv, npz=npz, plot=plot, resume=resume)
+        outputs = Outputs.checked(file, over, csv=csv, npz=npz, plot=plot, resume=resume, force=force)
         axes = [(name, values) for name, _, values in (text.partition("=") for text in over)]
-        try:
-            with _progress() as progress, workers(jobs, dask) as executor, _warnings_told():
-                work = {"executor": executor, "resume": resume, "progress": progress}
-                result = swept(problem, of, axes, hold=hold, **work)
-        except IncompleteSweepError as error:
-            _tell(outputs.rescued(error.result, error.reason))
-            raise typer.Exit(INTERRUPTED if error.interrupted else SOLVER_FAILED) from None
-        try:
-            outputs.write(result)
-            _show_sweep(result, as_json)
-        except OSError as error:
-            _tell(outputs.rescued(result, f"{error.filename or 'the answer'} could not be written: {error.strerror}"))
-            raise typer.Exit(BAD_INPUT) from None
+        with workers(jobs, dask) as executor, held():
+            options = {"hold": hold, "executor": executor, "resume": resume}
+            result = _swept(problem, of, axes, outputs, options)
+            _write_sweep(result, outputs, as_json)
     raise typer.Exit(_code(not result.unverified.any(), bool(result.good.any())))
+
+
+def _swept(problem: "Problem", of: str, axes: Any, outputs: Any, options: dict[str, Any]) -> Any:
+    """Return a sweep that came to its end; of another one what is finished is kept."""
+    from yawdesign.study.sweep import IncompleteSweepError, swept
+
+    try:
+        with _progress() as progress, _warnings_told():
+            return swept(problem, of, axes, progress=progress, **options)
+    except IncompleteSweepError as error:
+        _tell(outputs.rescued(error.result, error.reason))
+        raise typer.Exit(_stopped(error.__cause__) if error.interrupted else SOLVER_FAILED) from None
+
+
+def _write_sweep(result: Any, outputs: Any, as_json: bool) -> None:
+    """Write and show a sweep, and keep it if that fails or somebody stops it."""
+    from yawdesign.problem import ProblemError
+    from yawdesign.problem.stopping import let_through
+
+    try:
+        outputs.write(result)
+        with let_through():
+            _show_sweep(result, as_json)
+    except KeyboardInterrupt as error:
+        _tell(outputs.rescued(result, f"it was stopped ({error})"))
+        raise typer.Exit(_stopped(error)) from None
+    except Exception as error:
+        name, why = getattr(error, "filename", None), getattr(error, "strerror", None)
+        _tell(outputs.rescued(result, f"{name or 'the answer'} could not be written: {why or error}"))
+        if isinstance(error, (OSError, ProblemError)):
+            raise typer.Exit(BAD_INPUT) from None
+        raise
 
 
 def _show_sweep(result: Any, as_json: bool) -> None:
@@ -213,14 +247,17 @@ def simulate(
     npz: Annotated[str | None, typer.Option(help="Write the time histories as NumPy arrays.")] = None,
     plot: Annotated[str | None, typer.Option(help="Draw the frame's motion to a .png, .pdf or .svg file.")] = None,
     response: Annotated[str, typer.Option(help="What --plot draws.")] = "y_b",
+    force: Force = False,
 ) -> None:
     """Run the bogie over a track: RMS, peaks, whether amplitudes settle, and what its yaw damper has to do."""
     from yawdesign.output import histories
     from yawdesign.output.plots import PICTURES, write_picture
+    from yawdesign.output.targets import Target, checked_targets
 
     with _mistakes_shown():
-        files = [(csv, (".csv",)), (npz, (".npz",)), (plot, PICTURES)]
-        to_csv, to_npz, to_plot = (path and histories.checked_ending(path, endings) for path, endings in files)
+        tables = Target("--csv", csv, (".csv",), force), Target("--npz", npz, (".npz",), force)
+        targets = (*tables, Target("--plot", plot, PICTURES, force))
+        to_csv, to_npz, to_plot = checked_targets(targets, [file, track])
         problem = _read(file)
         with _progress() as progress:
             from yawdesign.response.simulate import simulate as run
@@ -242,11 +279,11 @@ def simulate(
         if to_plot:
             from yawdesign.output.response_plots import simulation
 
-            write_picture(simulation(result, response=response), to_plot)
+            write_picture(simulation(result, response=response), to_plot, replace=force)
         if to_csv:
-            histories.write_csv(result, to_csv)
+            histories.write_csv(result, to_csv, replace=force)
         if to_npz:
-            histories.write_npz(result, to_npz)
+            histories.write_npz(result, to_npz, replace=force)
         _show(result, as_json, "simulation_tables", "yawdesign.output.response_tables")
     raise typer.Exit(_code(result.checked, result.settles))
 
@@ -261,15 +298,17 @@ def modes(
     of: Annotated[str, typer.Option(help="With --over: root_locus, damping_ratio or frequency.")] = "root_locus",
     animate: Annotated[str, typer.Option(metavar="MODE", help="Which mode is drawn; the slowest if not given.")] = "",
     to: Annotated[str, typer.Option(metavar="FILE", help="Show the mode in motion: a .gif or .svg file.")] = "",
+    force: Force = False,
     as_json: AsJson = False,
 ) -> None:
     """Show all modes by name: frequency, damping, what takes part; follow them over speed or any parameter."""
     with _mistakes_shown():
-        from yawdesign.output.histories import checked_ending
-        from yawdesign.output.plots import PICTURES, write_picture
+        from yawdesign.output.plots import ANIMATIONS, PICTURES, write_picture
+        from yawdesign.output.targets import Target, checked_targets
         from yawdesign.problem import ProblemError
 
-        to_plot = plot and checked_ending(plot, PICTURES)
+        pictures = Target("--plot", plot, PICTURES, force), Target("--to", to, ANIMATIONS, force)
+        to_plot, to_animate = checked_targets(pictures, [file])
         problem = _read(file)
         if over and (to or animate):
             raise ProblemError("--animate and --to show a mode at one place: leave out --over")
@@ -281,9 +320,10 @@ def modes(
             from yawdesign.output.plots import plot as draw
 
             options: dict[str, Any] = {"of": of} if over else {"mode": animate or None}
-            write_picture(draw(result, **options), to_plot)
-        if to:
-            import_module("yawdesign.output.animation").animate(result, to, mode=animate or None)
+            write_picture(draw(result, **options), to_plot, replace=force)
+        if to_animate:
+            moving = import_module("yawdesign.output.animation").animate
+            moving(result, to_animate, mode=animate or None, replace=force)
         _show(result, as_json, "followed_tables" if over else "modes_tables", "yawdesign.output.mode_tables")
     raise typer.Exit(_code(result.checked, bool(over) or result.stable))
 
@@ -354,16 +394,15 @@ def new(
     force: Annotated[bool, typer.Option("--force", help="Replace the file if it exists.")] = False,
 ) -> None:
     """Write a commented problem file to start from."""
+    from yawdesign.output.targets import Target, checked_targets
     from yawdesign.problem import ProblemError, starter
     from yawdesign.problem.writing import write_whole
 
     with _mistakes_shown():
         if kind not in ("power", "trailer"):
             raise ProblemError(f"--kind {kind} is not one of power, trailer")
-        path = Path(file)
-        if path.exists() and not force:
-            raise ProblemError(f"{file} exists: choose another name, or give --force to replace it")
-        write_whole(path, starter(kind).encode())
+        checked_targets([Target("", file, replaced=force)], [])
+        write_whole(Path(file), starter(kind).encode(), replace=force)
     typer.echo(f"wrote {file}; next: yawdesign optimise {file}")
 
 
@@ -396,15 +435,19 @@ def _version(
 
 
 def main() -> None:
-    """Run the command line; Ctrl-C ends it without a traceback."""
+    """Run the command line; Ctrl-C and SIGTERM end it without a traceback."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")  # a console without µ or · shows ? and goes on
+    from yawdesign.problem.stopping import ignore_requests, watched
+
     try:
-        app()
-    except KeyboardInterrupt:
+        with watched():
+            app()
+    except KeyboardInterrupt as error:
+        ignore_requests()
         _tell("interrupted")
-        sys.exit(INTERRUPTED)
+        sys.exit(_stopped(error))
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from yawdesign.output.mode_plots import mode_shape
 from yawdesign.output.plan_view import COLOURS, REST, Body, Corner, bodies, caption, find_mode, half_size, subtitle
 from yawdesign.problem import ProblemError
-from yawdesign.problem.writing import write_whole
+from yawdesign.problem.writing import refuse_existing, write_whole
 
 if TYPE_CHECKING:
     from yawdesign.response.modes import Modes, NamedMode
@@ -33,7 +33,7 @@ SCRIPT = """(function () {
 })();"""
 
 
-def animate(result: "Modes", to: str | Path, *, mode: str | None = None) -> Path:
+def animate(result: "Modes", to: str | Path, *, mode: str | None = None, replace: bool = False) -> Path:
     """Write a mode in motion to a file.
 
     An oscillating mode is shown over one cycle, without its decay or growth; another one as it dies out.
@@ -47,6 +47,8 @@ def animate(result: "Modes", to: str | Path, *, mode: str | None = None) -> Path
         runs scripts.
     mode : str, optional
         Name of the mode; the least damped one if not given.
+    replace : bool
+        Whether a file that is there is replaced.
 
     Returns
     -------
@@ -56,13 +58,16 @@ def animate(result: "Modes", to: str | Path, *, mode: str | None = None) -> Path
     Raises
     ------
     ProblemError
-        If the ending or the mode is not known.
+        If the ending or the mode is not known, or there is a file that may not be replaced.
+    OSError
+        If it cannot be written.
     """
     path = Path(to)
     makers = {".gif": gif, ".svg": svg}
+    refuse_existing(path, replace)
     if path.suffix.lower() not in makers:
         raise ProblemError(f"{path.name}: a mode is written as .gif or .svg")
-    write_whole(path, makers[path.suffix.lower()](result, mode))
+    write_whole(path, makers[path.suffix.lower()](result, mode), replace=replace)
     return path
 
 

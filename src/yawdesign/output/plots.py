@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 PICTURES = (".png", ".pdf", ".svg")
+ANIMATIONS = (".gif", ".svg")
 DOTS_PER_INCH = 150
 
 # What draws which kind of result, as module and function.
@@ -57,12 +58,12 @@ def plot(result: Any, ax: "Axes | None" = None, **options: Any) -> "Axes":
     return axes
 
 
-def write_picture(axes: "Axes", path: Path) -> None:
-    """Write the figure of some axes to a file, as a whole or not at all; the ending, one of `PICTURES`, tells how."""
+def write_picture(axes: "Axes", path: Path, *, replace: bool = False) -> None:
+    """Write the figure of some axes as in `whole_file`; the ending of the name, one of `PICTURES`, tells how."""
     content = io.BytesIO()
     figure: Any = axes.get_figure(root=True)
     figure.savefig(content, format=path.suffix[1:].lower(), dpi=DOTS_PER_INCH)
-    write_whole(path, content.getvalue())
+    write_whole(path, content.getvalue(), replace=replace)
 
 
 def new_axes(ax: "Axes | None") -> "Axes":
