@@ -4,8 +4,9 @@ The names below are loaded when they are first used, so that importing the packa
 """
 
 import sys
+from functools import cache
 from importlib import import_module
-from types import ModuleType
+from types import FunctionType, ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -136,7 +137,18 @@ __all__ = [
 def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"module 'yawdesign' has no attribute {name!r}")
-    return getattr(import_module(_HOME[name]), name)
+    return _public(name)
+
+
+@cache
+def _public(name: str) -> Any:
+    """Return what has a public name; a function looks at its arguments before it begins."""
+    found = getattr(import_module(_HOME[name]), name)
+    if not isinstance(found, FunctionType):
+        return found
+    function: Any = import_module("yawdesign.problem.arguments").checked(found)
+    function.__module__, function.__qualname__ = __name__, name  # where pickle finds it
+    return function
 
 
 def __dir__() -> list[str]:

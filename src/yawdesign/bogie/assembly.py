@@ -4,6 +4,7 @@ The polynomial matrix keeps one extra row for the force of every link, ``denomin
 link's polynomials enter every determinant at most once, and terms that would cancel never arise.
 """
 
+import math
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
@@ -68,7 +69,7 @@ class StateSpace:
     """State matrix A and input matrix B of a list of elements: x' = A x + B u.
 
     The states are the coordinates, their velocities, and the dashpot stroke z of every Maxwell element, for which
-    z' = K/c (u - z) and the force is K (u - z).
+    z' = K/c (u - z) and the force is K (u - z). With a rigid joint (K = inf) the force is c u', without a stroke.
 
     Parameters
     ----------
@@ -143,6 +144,9 @@ class StateSpace:
     def _add_maxwell(self, link: Link, law: Maxwell) -> None:
         if isinstance(law.c, (int, float)) and law.c == 0:
             return  # no damping, no force, no state
+        if isinstance(law.K, float) and math.isinf(law.K):  # a rigid joint has no stroke of its own
+            self._respond(link, law.c, len(self._masses))
+            return
         stroke, rate = self.size, law.K / law.c
         self.size += 1
         self.strokes.append((link, law))

@@ -5,11 +5,17 @@ at the rate L V_r / (2 R l). The moment that resists is
 ``T = (C_s b_3^2 + C_t b_0^2) L V_r / (2 R l) + K_2x b_2^2 L / (2 R)``, and eq. (13) limits T / (4 Q a).
 """
 
+from collections.abc import Iterable, Mapping
+
 from yawdesign.bogie.polynomials import Number
 from yawdesign.bogie.vehicles import Parameters
-from yawdesign.problem import Curve
+from yawdesign.problem import PARAMETERS, Curve, format_quantity
 
 LOADS = {"axle": "Q = W, the axle load (the paper)", "wheel": "Q = W/2, the wheel load (railway standards)"}
+
+# What the rotational resistance rises with, and what it falls with, eq. (13).
+RAISING = frozenset({"C_s", "C_t", "K_2x", "b_0", "b_2", "b_3"})
+LOWERING = frozenset({"W", "a"})
 
 
 def resisting_moment(p: Parameters, C_s: Number, curve: Curve) -> Number:
@@ -53,3 +59,14 @@ def curving_limit(p: Parameters, curve: Curve) -> Number:
     rest = resisting_moment(p, 0, curve)
     slope = p["b_3"] * p["b_3"] * curve.L * curve.V_r / (2 * curve.R * curve.l)
     return (curve.limit * resistance_scale(p, curve) - rest) / slope
+
+
+def excess(values: Mapping[str, float], variables: Iterable[str], curve: Curve) -> str:
+    """Return in words by how much the limit is exceeded at the variables' values of least rotational resistance."""
+    names = [name for name in variables if name in RAISING | LOWERING]
+    where = ", ".join(f"{name} = {format_quantity(values[name], PARAMETERS[name].unit)}" for name in names)
+    at = f"at {where}, where it is least," if where else "which no design variable changes,"
+    if not values["W"]:
+        return f"T/(4 Q a), {at} has no bound without an axle load (W = 0)"
+    resistance = rotational_resistance(values, values["C_s"], curve)
+    return f"T/(4 Q a), {at} is {resistance:.6g}, and the limit is {curve.limit:.6g}"

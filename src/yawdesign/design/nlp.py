@@ -16,7 +16,7 @@ import numpy as np
 from yawdesign.bogie.characteristic import characteristic
 from yawdesign.bogie.polynomials import Polynomial, product, scale_variable, shift, trim
 from yawdesign.design.curving import resistance_scale, resisting_moment
-from yawdesign.design.space import Float, Space, between, fraction
+from yawdesign.design.space import Float, Space, between, fraction, rigid_joints, scale
 from yawdesign.stability.modes import roots
 from yawdesign.stability.routh import TIME_UNIT
 
@@ -91,7 +91,8 @@ def improve(space: Space, x: Float, margin: float, options: Mapping[str, Any]) -
 
 def _in_cube(space: Space, places: Float) -> Float:
     """Return the point of the cube that belongs to fractions between the bounds as written."""
-    values = {name: between(*space.bounds(name), place) for name, place in zip(space.names, places, strict=True)}
+    pairs = zip(space.names, places, strict=True)
+    values = {name: between(*space.bounds(name), place, scale(name)) for name, place in pairs}
     return space.coordinates({name: float(value) for name, value in values.items()})
 
 
@@ -103,12 +104,14 @@ def _program(space: Space, x: Float, margin: float) -> tuple[_Program, ca.SX]:
     t = program.variable("margin", t0, -np.inf, 0.999 if ratio else np.inf, scale=max(abs(t0), 1e-3))
     values: dict[str, Any] = dict(space.fixed)
     for name, place in zip(space.names, _places(space, start), strict=True):
-        values[name] = between_sx(*space.bounds(name), program.variable(name, place, 0.0, 1.0))
+        values[name] = between_sx(*space.bounds(name), program.variable(name, place, 0.0, 1.0), scale(name))
     if space.curve is not None:
         share = resisting_moment(values, values["C_s"], space.curve)
         allowed = space.curve.limit * resistance_scale(values, space.curve)
         size = space.curve.limit * resistance_scale(start, space.curve)
         program.constrain((share - allowed) / size, -np.inf, 0.0)
+    stiff = {K: np.inf for K, is_rigid in rigid_joints(start).items() if is_rigid}
+    start, values = start | stiff, values | stiff
     for number, case in enumerate(space.cases):
         now = _polynomials(space, case.applied(start), start["C_s"])
         for part, p in enumerate(_polynomials(space, case.applied(values), values["C_s"])):
@@ -124,12 +127,13 @@ def _solve(program: _Program, t: ca.SX, options: Mapping[str, Any], variables: i
 
 
 def _places(space: Space, values: Mapping[str, float]) -> list[float]:
-    return [fraction(*space.bounds(name), values[name]) for name in space.names]
+    return [fraction(*space.bounds(name), values[name], scale(name)) for name in space.names]
 
 
-def between_sx(low: float, high: float, x: ca.SX) -> ca.SX:
+def between_sx(low: float, high: float, x: ca.SX, size: float) -> ca.SX:
     """Return `between` for a symbol."""
-    return low * ca.exp(np.log(high / low) * x) if low > 0 else low + (high - low) * x
+    grown: ca.SX = (low + size) * (ca.exp(np.log1p((high - low) / (low + size)) * x) - 1)
+    return low + grown
 
 
 def _polynomials(space: Space, p: Mapping[str, Any], C_s: Any) -> list[Polynomial]:

@@ -8,12 +8,12 @@ import numpy as np
 
 from yawdesign.bogie.characteristic import paper_coefficients
 from yawdesign.bogie.polynomials import trim
-from yawdesign.design.curving import rotational_resistance
+from yawdesign.design.curving import excess, rotational_resistance
 from yawdesign.design.forward import REMEDIES, UNDAMPED, ForwardDesign, design, factors_damped
 from yawdesign.design.nlp import improve
 from yawdesign.design.search import Progress, refine, search
-from yawdesign.design.space import Float, Space, fraction
-from yawdesign.problem import Problem, ProblemError
+from yawdesign.design.space import Float, Space, fraction, scale
+from yawdesign.problem import Curve, Problem, ProblemError
 from yawdesign.stability.hurwitz import hurwitz_minors
 from yawdesign.stability.routh import TIME_UNIT
 from yawdesign.stability.verdict import Mode, Stability, stability_at
@@ -22,14 +22,16 @@ TURNS = ((6, 1e-3), (2, 1e-5))  # number of starts of the NLP, radius of the ref
 # How close the margins by two routes must be. Where two roots coalesce, as they do at many optima, an eigenvalue is
 # right to 1e-8 of its own modulus only; a hunting mode's is 10 ... 30 rad/s.
 AGREE = {"decay_rate": 2e-5, "damping_ratio": 1e-6}
+MOST_SEARCHES = 7  # in six variables and more; what these miss, other seeds may find
 ACTIVE = 1e-4  # a variable within this share of its range from a bound stands at the bound
 
 MESSAGES = {
     "optimal": "best design found within the bounds and the curve's limit",
     "unstable": "no design within the bounds is stable: lower the speed, widen the bounds or vary other parameters",
-    "infeasible": "no design within the bounds keeps the curve's limit: lower the bounds of C_s, allow a larger radius "
-    "or limit, or let other parameters vary",
-    "unverified": "the margin by eigenvalues and by Routh's array differ: do not use this result",
+    "infeasible": "no design within the bounds keeps the curve's limit: {}; lower C_s or its bounds, allow a larger "
+    "radius or limit, or let other parameters vary",
+    "unverified": "eigenvalues and Routh's array differ: do not use this result; the parameters are too extreme for "
+    "double precision",
 }
 
 
@@ -40,9 +42,10 @@ class Bound:
     Parameters
     ----------
     value, min, max : float
-        In SI units.
+        In SI units; the bounds as written.
     position : float
-        Between its bounds, 0 ... 1 (geometrically).
+        Between its bounds, 0 ... 1, on the scale of the search: linear below the parameter's least usual value,
+        geometric above.
     """
 
     value: float
@@ -134,15 +137,15 @@ def optimise(
     space = Space(problem)
     if "C_s" not in space.names and problem.bogie.C_s is None:
         raise ProblemError("bogie.C_s is missing: give its value, or make it a design variable")
+    if space.curve is not None and not space.feasible(space.values(space.gentlest)):
+        return _nothing(space, space.curve)
     found = np.concatenate([search(space, seed + k, progress) for k in range(_searches(space))], axis=1)
-    if not found.size:
-        return _nothing(space)
     return _answer(space, _best(space, found, seed, options or {}, progress))
 
 
 def _searches(space: Space) -> int:
     """Return how many independent searches are made: what one cannot sample densely, several must not miss."""
-    return max(1, 2 * len(space.names) - 5)
+    return min(max(1, 2 * len(space.names) - 5), MOST_SEARCHES)
 
 
 def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
@@ -150,7 +153,7 @@ def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progres
     rng, margin = np.random.default_rng(seed), space.margins_at(x)
     order = np.argsort(-margin, kind="stable")
     x, margin = x[:, order], margin[order]
-    more = max(1, len(space.names) - 2)  # local optima multiply with the variables
+    more = min(max(1, len(space.names) - 2), MOST_SEARCHES)  # local optima multiply with the variables
     for turn, (starts, radius) in enumerate(TURNS):
         progress("solving the NLP", turn / len(TURNS))
         reached = [
@@ -172,7 +175,7 @@ def _answer(space: Space, x: Float) -> Optimum:
     worst = _worst(space, values)
     final = space.problem.replace(**values)
     forward = design(final)
-    agree = abs(second - margin) <= AGREE[space.problem.design.objective]
+    agree = worst.checked and abs(second - margin) <= AGREE[space.problem.design.objective]
     status = "unverified" if not agree else ("optimal" if worst.stable else "unstable")
     bounds = {name: _bound(space, name, values[name]) for name in space.names}
     return _optimum(
@@ -197,14 +200,14 @@ def _answer(space: Space, x: Float) -> Optimum:
 def _message(space: Space, status: str) -> str:
     if status == "unstable" and not factors_damped(space.problem):
         return REMEDIES[UNDAMPED]
-    if status == "infeasible" and "C_s" not in space.names:
-        return "C_s as given exceeds what the curve allows: lower it, or make it a design variable"
     return MESSAGES[status]
 
 
-def _nothing(space: Space) -> Optimum:
+def _nothing(space: Space, curve: Curve) -> Optimum:
+    values = {name: float(value) for name, value in space.values(space.gentlest).items()}
+    message = MESSAGES["infeasible"].format(excess(values, space.names, curve))
     nothing: dict[str, Any] = {"margin": None, "active": ("rotational_resistance",), "bounds": {}, "fixed_modes": {}}
-    nothing |= {"optimum_stable": False, "message": _message(space, "infeasible")}
+    nothing |= {"optimum_stable": False, "message": message}
     nothing |= {"modes": (), "hurwitz_positive": False, "margin_polynomial": None, "rotational_resistance": None}
     names = dict.fromkeys(("C_s", "K_m", "C_m", *space.names))
     return _optimum(space, design(space.problem), "infeasible", optimum=names, **nothing)
@@ -216,7 +219,6 @@ def _optimum(space: Space, forward: ForwardDesign, status: str, **own: Any) -> O
         "objective": space.problem.design.objective,
         "margin_before": _margin_before(space),
         "status": status,
-        "message": MESSAGES[status],
         "design_status": forward.status,
         "before": {name: space.problem.bogie.parameters().get(name) for name in space.names},
         "forward": forward,
@@ -261,7 +263,7 @@ def _bisect(space: Space, values: Mapping[str, float], margin: float) -> float:
 
 def _bound(space: Space, name: str, value: float) -> Bound:
     low, high = space.bounds(name)
-    return Bound(value, low, high, fraction(low, high, value))
+    return Bound(value, low, high, fraction(low, high, value, scale(name)))
 
 
 def _active(space: Space, values: Mapping[str, float], bounds: Mapping[str, Bound]) -> tuple[str, ...]:

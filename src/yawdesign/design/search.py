@@ -7,6 +7,7 @@ two hundred; so all points get a verdict against the best margin of their own ce
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,22 +20,31 @@ CELLS = 6  # cells per axis in up to three variables, each with a best point of 
 STARTS = 20  # cells that are refined, in up to three variables; in more of them more
 OTHERS = 4900  # points in the variables other than C_s
 LINE = 72  # points along C_s
+MOST_SPLIT = 9  # variables whose axes are divided into cells: their number doubles with each
 
 Progress = Callable[[str, float], None]
 
 
 @dataclass
 class _Cells:
-    """The best point of every cell."""
+    """The best point of every cell; the last of the axes are divided, C_s among them."""
 
     x: Float
     margin: Float
     per_axis: int
+    axes: int
+
+    @classmethod
+    def of(cls, d: int) -> Self:
+        """Return the cells of a cube of d variables, with no points in them yet."""
+        axes = min(d, MOST_SPLIT)
+        per_axis = CELLS if d <= 3 else max(2, round(CELLS ** (3 / d)))
+        return cls(np.full((d, per_axis**axes), 0.5), np.full(per_axis**axes, -np.inf), per_axis, axes)
 
     def index(self, x: Float) -> NDArray[np.intp]:
         """Return the cell of each point."""
-        cells = np.minimum((x * self.per_axis).astype(int), self.per_axis - 1)
-        return np.asarray(np.ravel_multi_index(tuple(cells), (self.per_axis,) * len(cells)))
+        cells = np.minimum((x[-self.axes :] * self.per_axis).astype(int), self.per_axis - 1)
+        return np.asarray(np.ravel_multi_index(tuple(cells), (self.per_axis,) * self.axes))
 
     def offer(self, x: Float, margin: Float) -> None:
         """Keep those points that are better than their cell's best."""
@@ -47,15 +57,14 @@ class _Cells:
 def search(space: Space, seed: int, progress: Progress) -> Float:
     """Return refined points of the cube, shape (variables, points), the best first."""
     d, rng = len(space.names), np.random.default_rng(seed)
-    per_axis = CELLS if d <= 3 else max(2, round(CELLS ** (3 / d)))
-    cells = _Cells(np.full((d, per_axis**d), 0.5), np.full(per_axis**d, -np.inf), per_axis)
-    first = qmc.Sobol(d, rng=rng).random(1024).T
+    cells = _Cells.of(d)
+    first = np.concatenate([qmc.Sobol(d, rng=rng).random(1024).T, space.anchors], axis=1)
     cells.offer(first, space.margins_at(first))
     blocks = list(_blocks(space, rng))
     for k, x in enumerate(blocks):
         progress("searching the design space", k / len(blocks))
         _look(space, cells, x)
-    order = np.argsort(-cells.margin, kind="stable")[: STARTS * max(1, d - 2)]
+    order = np.argsort(-cells.margin, kind="stable")[: STARTS * min(max(1, d - 2), MOST_SPLIT)]
     order = order[np.isfinite(cells.margin[order])]
     return refine(space, cells.x[:, order], cells.margin[order], rng, progress=progress)
 

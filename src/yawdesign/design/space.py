@@ -4,7 +4,7 @@ The curve's limit is built into the cube: the coordinate of C_s runs up to what 
 variables, so every point of the cube with ``C_su`` above the lower bound is feasible.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from yawdesign.bogie.characteristic import characteristic
 from yawdesign.design.conditions import Condition, conditions
-from yawdesign.design.curving import curving_limit, resistance_scale, resisting_moment
-from yawdesign.problem import Curve, Problem
+from yawdesign.design.curving import LOWERING, RAISING, curving_limit, resistance_scale, resisting_moment
+from yawdesign.problem import PARAMETERS, Curve, Problem
 from yawdesign.stability.modes import MARGINS, core_eigenvalues
 from yawdesign.stability.routh import damped_more, decays_faster
 from yawdesign.stability.verdict import fixed_factors
@@ -23,9 +23,13 @@ from yawdesign.stability.verdict import fixed_factors
 Float = NDArray[np.float64]
 Values = dict[str, Any]
 
-# A damper with joints and no damping at all has a state less: as variables these begin at next to nothing [N s/m].
-JOINTED = frozenset({"C_s", "C_m", "C_t"})
-LEAST = 1.0
+# The dampers that have joints, and the stiffnesses of these. Where a damper is so weak that its stroke's own root -K/c
+# lies further out than this [1/s], its joint counts as rigid: it moves no other root by more than rounding does, and an
+# eigenvalue that large would spoil all others. A damper without damping has no such root at all.
+JOINTS: Mapping[str, str] = {"C_s": "K_ds", "C_m": "K_dm", "C_t": "K_dt"}
+FASTEST = 1e10
+JOINTED = frozenset(JOINTS)
+LEAST = 1.0  # [N s/m]: what is as good as no damping where 0 cannot stand
 
 
 @dataclass(frozen=True)
@@ -75,30 +79,42 @@ class Space:
         return tuple(name for name in characteristic(p, **self.model).factors if name not in fixed)
 
     def bounds(self, name: str) -> tuple[float, float]:
-        """Return lower and upper bound of a variable in SI."""
+        """Return lower and upper bound of a variable in SI, as written."""
         variable = self.problem.design.variables[name]
-        low = max(float(variable.min), LEAST) if name in JOINTED else float(variable.min)
-        return low, max(low, float(variable.max))
+        return float(variable.min), float(variable.max)
 
     def values(self, x: Float) -> Values:
         """Return all parameters and C_s at points of the unit cube, shape (variables, ...)."""
         out = dict(self.fixed)
         for name, coordinate in zip(self.names, x, strict=True):
-            low, high = self.bounds(name)
-            if name == "C_s" and self.curve is not None:
-                high = np.clip(curving_limit(out, self.curve), low, high)
-            out[name] = between(low, high, coordinate)
+            out[name] = between(*self._ends(name, out), coordinate, scale(name))
         return out
 
     def coordinates(self, values: Mapping[str, float]) -> Float:
         """Return the point of the unit cube that belongs to given values, moved to its surface if outside."""
-        out, known = [], {**self.fixed, **values}
-        for name in self.names:
-            low, high = self.bounds(name)
-            if name == "C_s" and self.curve is not None:
-                high = float(np.clip(curving_limit(known, self.curve), low, high))
-            out.append(fraction(low, high, float(values[name])))
-        return np.asarray(np.clip(np.array(out), 0, 1))
+        known = {**self.fixed, **values}
+        places = [fraction(*self._ends(name, known), float(values[name]), scale(name)) for name in self.names]
+        return np.asarray(np.clip(np.array(places), 0, 1))
+
+    def _ends(self, name: str, known: Values) -> tuple[float, Any]:
+        """Return the ends of a coordinate: the bounds, and for C_s what the curve allows with the other values."""
+        low, high = self.bounds(name)
+        if name == "C_s" and self.curve is not None:
+            return low, np.clip(curving_limit(known, self.curve), low, high)
+        return low, high
+
+    @cached_property
+    def gentlest(self) -> Float:
+        """The point of the cube with the least rotational resistance; what has no part in it is in the middle."""
+        return np.array([0.0 if name in RAISING else 1.0 if name in LOWERING else 0.5 for name in self.names])
+
+    @cached_property
+    def anchors(self) -> Float:
+        """Points of the cube that any search must know: the gentlest, and the design as written if it lies inside."""
+        points, p = [self.gentlest], {name: float(v) for name, v in self.problem.bogie.parameters().items()}
+        if all(name in p and self.bounds(name)[0] <= p[name] <= self.bounds(name)[1] for name in self.names):
+            points.append(self.coordinates(p))
+        return np.array(points).T
 
     def feasible(self, values: Values) -> NDArray[np.bool_]:
         """Return where the curve's limit is kept (within rounding)."""
@@ -110,7 +126,10 @@ class Space:
 
     def beats(self, values: Values, level: Float | float) -> NDArray[np.bool_]:
         """Return where the margin exceeds a level, by Routh's array in every condition; a ratio below zero as zero."""
-        verdict = self.feasible(values)
+        return np.asarray(_piecewise(self._beats, values, level) & self.feasible(values))
+
+    def _beats(self, values: Values, level: Float | float) -> NDArray[np.bool_]:
+        verdict = np.asarray(True)
         ratio = self.problem.design.objective == "damping_ratio"
         for case in self.cases:
             c = characteristic(case.applied(values), **self.model)
@@ -121,6 +140,9 @@ class Space:
 
     def margins(self, values: Values) -> Float:
         """Return the margins from eigenvalues, minus infinity where the curve's limit is exceeded."""
+        return np.where(self.feasible(values), _piecewise(self._margins, values), -np.inf)
+
+    def _margins(self, values: Values) -> Float:
         measure = MARGINS[self.problem.design.objective]
         worst = np.asarray(np.inf)
         for case in self.cases:
@@ -128,25 +150,58 @@ class Space:
             worst = np.minimum(worst, measure(core_eigenvalues(p, values["C_s"], **self.model)))
             for factor in (characteristic(p, **self.model).factors[name] for name in self.movable):
                 worst = np.minimum(worst, measure(quadratic_roots(factor)))
-        return np.where(self.feasible(values), worst, -np.inf)
+        return worst
 
     def margins_at(self, x: Float) -> Float:
         """Return the margins at points of the cube, shape (variables, points)."""
         return np.broadcast_to(self.margins(self.values(x)), x.shape[1:])
 
 
-def between(low: Any, high: Any, x: Any) -> Any:
-    """Return the point at fraction x between two bounds, geometrically if the lower one is positive."""
-    if low > 0:
-        return np.clip(low * (high / low) ** x, low, high)
-    return low + (high - low) * x
+def scale(name: str) -> float:
+    """Return the size [SI] below which a coordinate of the cube is linear in a parameter; above, it is geometric."""
+    usual = PARAMETERS[name].usual
+    return float(usual[0] or usual[1])
 
 
-def fraction(low: float, high: float, value: float) -> float:
+def between(low: Any, high: Any, x: Any, size: float) -> Any:
+    """Return the point at fraction x between two bounds, linear below a size and geometric above it."""
+    return np.clip(low + (low + size) * np.expm1(_width(low, high, size) * x), low, high)
+
+
+def fraction(low: float, high: float, value: float, size: float) -> float:
     """Return the inverse of `between`."""
-    if high <= low:
-        return 0.0
-    return float(np.log(value / low) / np.log(high / low)) if low > 0 else (value - low) / (high - low)
+    return float(_width(low, value, size) / _width(low, high, size)) if high > low else 0.0
+
+
+def _width(low: Any, high: Any, size: float) -> Any:
+    return np.log1p((high - low) / (low + size))
+
+
+def rigid_joints(values: Values) -> dict[str, NDArray[np.bool_]]:
+    """Return, by the stiffness of each joint, where it counts as rigid beside its damper."""
+    return {K: np.asarray(values[c] * FASTEST < values[K]) for c, K in JOINTS.items() if c in values}
+
+
+def _piecewise(function: Callable[..., Any], values: Values, *more: Any) -> Any:
+    """Return a function of values, some of them arrays, evaluated apart for each set of joints that count as rigid."""
+    rigid = rigid_joints(values)
+    pattern = np.asarray(sum(2**k * is_rigid for k, is_rigid in enumerate(rigid.values())))
+    out = np.asarray(0.0)
+    for code in np.unique(pattern):
+        stiff = {K: np.inf for k, K in enumerate(rigid) if code >> k & 1}
+        chosen = pattern == code
+        if np.all(chosen):
+            return function(values | stiff, *more)
+        part = function(_picked(chosen, values) | stiff, *(_picked(chosen, x) for x in more))
+        out = out if out.shape else np.zeros(pattern.shape, dtype=part.dtype)
+        out[chosen] = part
+    return out
+
+
+def _picked(chosen: NDArray[np.bool_], value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _picked(chosen, each) for name, each in value.items()}
+    return value[chosen] if np.shape(value) else value
 
 
 def quadratic_roots(p: tuple[Any, ...]) -> NDArray[np.complex128]:

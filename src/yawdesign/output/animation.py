@@ -3,15 +3,12 @@
 import io
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from yawdesign.output.mode_plots import mode_shape
 from yawdesign.output.plan_view import COLOURS, REST, Body, Corner, bodies, caption, find_mode, half_size, subtitle
 from yawdesign.problem import ProblemError
 from yawdesign.problem.writing import refuse_existing, write_whole
-
-if TYPE_CHECKING:
-    from yawdesign.response.modes import Modes, NamedMode
+from yawdesign.response.modes import Modes, NamedMode
 
 FRAMES, PERIOD = 24, 1.6  # pictures and seconds of a cycle
 SCALE = 100.0  # units of the SVG in a metre
@@ -33,7 +30,7 @@ SCRIPT = """(function () {
 })();"""
 
 
-def animate(result: "Modes", to: str | Path, *, mode: str | None = None, replace: bool = False) -> Path:
+def animate(result: Modes, to: str | Path, *, mode: str | None = None, replace: bool = False) -> Path:
     """Write a mode in motion to a file.
 
     An oscillating mode is shown over one cycle, without its decay or growth; another one as it dies out.
@@ -71,7 +68,7 @@ def animate(result: "Modes", to: str | Path, *, mode: str | None = None, replace
     return path
 
 
-def gif(result: "Modes", mode: str | None = None) -> bytes:
+def gif(result: Modes, mode: str | None = None) -> bytes:
     """Return a GIF of a mode. Arguments as in `animate`."""
     from matplotlib.figure import Figure
     from PIL import Image
@@ -89,13 +86,13 @@ def gif(result: "Modes", mode: str | None = None) -> bytes:
     return out.getvalue()
 
 
-def svg(result: "Modes", mode: str | None = None) -> bytes:
+def svg(result: Modes, mode: str | None = None) -> bytes:
     """Return an SVG of a mode, to stand alone or inside an HTML page. Arguments as in `animate`."""
     chosen = find_mode(result, mode)
     return _svg(result, chosen).encode()
 
 
-def _svg(result: "Modes", mode: "NamedMode") -> str:
+def _svg(result: Modes, mode: NamedMode) -> str:
     length, width = (SCALE * size for size in half_size(result))
     shown = bodies(result, mode)
     rails = [_line(-length, length, side * SCALE * result.parameters["b"]) for side in (1, -1)]

@@ -5,7 +5,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from yawdesign.problem import ProblemError
+from yawdesign.problem.arguments import checked, refused
 from yawdesign.problem.writing import write_whole
 
 if TYPE_CHECKING:
@@ -52,9 +52,11 @@ def plot(result: Any, ax: "Axes | None" = None, **options: Any) -> "Axes":
     """
     kind = type(result).__name__
     if kind not in DRAWN_BY:
-        raise ProblemError(f"there is no picture of a {kind}; there are pictures of {', '.join(sorted(DRAWN_BY))}")
+        raise refused("result", f"something to draw ({', '.join(sorted(DRAWN_BY))})", result)
+    if ax is not None and not hasattr(ax, "get_figure"):
+        raise refused("ax", "axes of Matplotlib", ax)
     home, name = DRAWN_BY[kind]
-    axes: Axes = getattr(import_module(home), name)(result, ax=ax, **options)
+    axes: Axes = checked(getattr(import_module(home), name))(result, ax=ax, **options)
     return axes
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import Any, Literal, Self, get_args
 
+from .arguments import named
 from .diagnostics import Mistakes, ProblemError, unknown_key
 from .parameters import MOTOR_KEYS, NO_MOTOR, Bogie, parameter_keys
 from .running import SPEED, Curve, SpeedRange
@@ -16,6 +17,7 @@ Equations = Literal["reciprocal", "as-printed"]
 EQUATIONS: tuple[str, ...] = get_args(Equations)
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Problem:
     """Everything that an answer depends on.
@@ -105,6 +107,8 @@ class Problem:
             with mistakes.under(key):
                 if key not in allowed:
                     raise ProblemError(NO_MOTOR if key in MOTOR_KEYS else unknown_key(key, allowed))
+        with mistakes.under("bogie"):
+            _instance(changes.get("bogie", self.bogie), Bogie)
         mistakes.report()
         mine = {name: value for name, value in changes.items() if name in own}
         bogies = {field_name(keys[name]): value for name, value in changes.items() if name not in own}

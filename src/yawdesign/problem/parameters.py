@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
+from .arguments import named
 from .diagnostics import Diagnostic, Mistakes, ProblemError
 from .table import as_choice, check_fields, documented, field_name, parameter, table
 
@@ -21,6 +22,7 @@ _OFFSET = (0.0, 100.0)
 _CREEP = (1.0, 1e15)
 
 
+@named
 @documented
 @dataclass(frozen=True, kw_only=True)
 class Bogie:

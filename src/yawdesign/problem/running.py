@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
+from .arguments import named
 from .diagnostics import Mistakes
 from .table import Parameter, as_choice, as_count, check_ends, check_fields, documented, parameter, table
 from .written import Written, exact
@@ -24,6 +25,7 @@ SPEED = Parameter(
 )
 
 
+@named
 @documented
 @dataclass(frozen=True, kw_only=True)
 class Curve:
@@ -75,6 +77,7 @@ class Curve:
 CURVE = table(Curve)
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class SpeedRange:
     """A range of running speeds, checked at equally spaced ones.

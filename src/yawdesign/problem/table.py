@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import MISSING, dataclass, field, fields, replace
 from numbers import Real
 from types import MappingProxyType
@@ -147,6 +147,14 @@ def as_quantity(value: object, unit: str, si: str = "") -> Written:
         return Written(value if isinstance(value, Written) else exact(value))  # type: ignore[arg-type]
     except (ValueError, OverflowError):
         raise ProblemError(f"{_shown(value)} is not a finite number") from None
+
+
+def as_several(value: Any) -> list[Any]:
+    """Return the entries of a list or of an array as plain numbers, or a single value as the only entry."""
+    if isinstance(value, (str, bytes)) or not isinstance(value, Iterable):
+        return [value]
+    entries: list[Any] = [value] if getattr(value, "ndim", 1) == 0 else list(value)
+    return [entry.item() if getattr(entry, "shape", None) == () else entry for entry in entries]
 
 
 def as_choice(value: object, choices: Collection[str]) -> str:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
-from typing import Literal, Self, get_args
+from typing import Any, Literal, Self, get_args
 
+from .arguments import named, refused
 from .diagnostics import Mistakes, ProblemError, unknown_key
 from .parameters import PARAMETERS, parameter_keys
 from .table import Parameter, as_choice, check_ends
@@ -15,6 +16,7 @@ Objective = Literal["decay_rate", "damping_ratio"]
 OBJECTIVES: tuple[str, ...] = get_args(Objective)
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Variable:
     """Bounds of a design variable.
@@ -72,6 +74,7 @@ def default_variables(kind: str) -> Variables:
     return Variables({key: Variable(min=low, max=high) for key, (low, high) in bounds.items()})
 
 
+@named
 @dataclass(frozen=True, kw_only=True)
 class Design:
     """What may be changed, and what is to be best.
@@ -91,18 +94,23 @@ class Design:
         mistakes = Mistakes()
         with mistakes.under("design.objective"):
             as_choice(self.objective, OBJECTIVES)
-        checked = {}
-        for given, variable in self.variables.items():
+        checked: dict[str, Variable] = {}
+        for given, variable in self._given():
             key = "lambda" if given == "lambda_" else given
             with mistakes.under(f"design.variables.{key}"):
                 checked[key] = _checked_variable(key, variable)
         mistakes.report()
         object.__setattr__(self, "variables", Variables(checked))
 
+    def _given(self) -> Iterable[tuple[Any, object]]:
+        if not isinstance(self.variables, Mapping):
+            raise refused("design.variables", "a mapping of names to Variable(min=..., max=...)", self.variables)
+        return self.variables.items()
 
-def _checked_variable(key: str, variable: object) -> Variable:
-    if key not in PARAMETERS:
-        raise ProblemError(unknown_key(key, PARAMETERS))
+
+def _checked_variable(key: object, variable: object) -> Variable:
+    if not isinstance(key, str) or key not in PARAMETERS:
+        raise ProblemError(unknown_key(str(key), PARAMETERS))
     if not isinstance(variable, Variable):
         raise ProblemError(f"{variable!r} is not a Variable(min=..., max=...)")
     return variable.checked(PARAMETERS[key])

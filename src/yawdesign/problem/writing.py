@@ -9,8 +9,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
-from yawdesign.problem import ProblemError
-from yawdesign.problem.stopping import held, let_through
+from .diagnostics import ProblemError
+from .stopping import held, let_through
 
 CANNOT_SYNCHRONISE = (errno.EINVAL, errno.ENOSYS, errno.ENOTSUP)  # of some file systems
 

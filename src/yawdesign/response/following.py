@@ -14,7 +14,7 @@ from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
-from yawdesign.problem.table import Parameter
+from yawdesign.problem.table import Parameter, as_several
 from yawdesign.response.linking import LOST, Place
 from yawdesign.response.modes import name_roots, parameters_at
 from yawdesign.response.names import groups_of, normalised, shares, unique_names
@@ -185,11 +185,10 @@ def _axis(problem: Problem, axis: Mapping[str, Any]) -> tuple[str, Parameter, Fl
 
 
 def _values(key: str, row: Parameter, given: Any) -> Float:
-    listed = [given] if isinstance(given, str) or np.ndim(given) == 0 else list(given)
     mistakes, values = Mistakes(), []
-    for k, value in enumerate(listed):
+    for k, value in enumerate(as_several(given)):
         with mistakes.under(f"{key}[{k}]"):
-            values.append(float(row.check(value.item() if isinstance(value, np.generic) else value)))
+            values.append(float(row.check(value)))
     mistakes.report()
     steps = np.sign(np.diff(values))
     if len(values) < 2 or not (np.all(steps > 0) or np.all(steps < 0)):

@@ -12,7 +12,7 @@ from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
-from yawdesign.problem.table import Parameter, as_choice
+from yawdesign.problem.table import Parameter, as_choice, as_several
 from yawdesign.response.system import INPUTS, Complex, Float, System, system_at
 
 WAVELENGTH = Parameter(
@@ -123,7 +123,7 @@ def frequency_response(
     u = system.harmonic_input(omega, input)
     x = states(system, omega, u)[:, : len(system.coordinates)]
     other = _by_polynomials(system, omega, u)
-    scalar = np.ndim(wavelength) == 0
+    scalar = isinstance(wavelength, str) or np.ndim(wavelength) == 0
 
     def shaped(values: Any) -> Any:
         return values[0].item() if scalar else values
@@ -141,10 +141,10 @@ def frequency_response(
 
 
 def _lengths(wavelength: Any) -> Float:
-    if np.ndim(wavelength) > 1 or np.size(wavelength) == 0:
-        raise ProblemError("must be one wavelength or a list of them")
-    values = [wavelength] if np.ndim(wavelength) == 0 else list(wavelength)
-    return np.array([float(WAVELENGTH.check(x.item() if hasattr(x, "item") else x)) for x in values])
+    values = as_several(wavelength)
+    if not values:
+        raise ProblemError("no wavelength is given: expected one or a list of them")
+    return np.array([float(WAVELENGTH.check(x)) for x in values])
 
 
 def one_speed(problem: Problem, speed: Any = None) -> float:

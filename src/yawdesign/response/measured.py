@@ -6,6 +6,7 @@ from os import PathLike
 import numpy as np
 
 from yawdesign.problem import ProblemError
+from yawdesign.problem.arguments import checked
 from yawdesign.problem.diagnostics import Diagnostic
 from yawdesign.problem.units import parse_unit
 from yawdesign.response.columns import Column, Table, read_columns, report
@@ -26,6 +27,7 @@ LARGEST = {"alignment": 0.5, "cross_level": 0.5}
 GAUGES, DEVIATION = (0.5, 2.0), 0.06
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class MeasuredTrack:
     """A measured track; between its points straight lines are drawn.

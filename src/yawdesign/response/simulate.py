@@ -4,13 +4,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from yawdesign.problem import Problem, ProblemError
+from yawdesign.problem.arguments import checked
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
-from yawdesign.problem.table import as_choice, as_count, as_quantity
+from yawdesign.problem.table import as_choice, as_count, as_quantity, as_several
 from yawdesign.response.component import DamperComponent, component
 from yawdesign.response.motion import History, Plan
 from yawdesign.response.runs import Run, run
@@ -218,7 +217,7 @@ def damper_component(problem: Problem, **options: Any) -> DamperComponent:
     >>> damper.C_each, round(damper.at_hunting.stiffness / 1e6, 2)
     (523385.0, 15.44)
     """
-    damper = simulate(problem, **options).damper
+    damper = checked(simulate)(problem, **options).damper
     if damper is None:
         raise ProblemError("bogie.C_s is 0: there is no yaw damper to order")
     return damper
@@ -227,7 +226,7 @@ def damper_component(problem: Problem, **options: Any) -> DamperComponent:
 def _band(band: Any) -> Band | None:
     if band is None or isinstance(band, Band):
         return band
-    if isinstance(band, str) or np.size(band) != 2:
+    if isinstance(band, str) or len(as_several(band)) != 2:
         raise ProblemError(f"band: {band!r} is not a pair, such as ('0.3 Hz', '40 Hz')")
     return Band(*band)
 
@@ -242,10 +241,10 @@ def _seed(seed: Any) -> int | None:
 def _speeds(problem: Problem, speed: Any) -> tuple[float, ...]:
     if speed is None:
         return tuple(float(v) for v in problem.speeds)
-    listed = [speed] if np.ndim(speed) == 0 else list(speed)
+    listed = as_several(speed)
     if not listed:
         raise ProblemError("no speed is given")
-    return tuple(float(SPEED.check(v.item() if hasattr(v, "item") else v)) for v in listed)
+    return tuple(float(SPEED.check(v)) for v in listed)
 
 
 def _positive(value: Any, unit: str, *, alone: bool = True) -> float | None:

@@ -8,12 +8,14 @@ from typing import Any
 import numpy as np
 
 from yawdesign.problem import ProblemError
+from yawdesign.problem.arguments import checked
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.response.system import Float
 
 Density = Callable[[Float], Float]
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class Spectrum:
     """Irregularity of a track as densities over the wavenumber.

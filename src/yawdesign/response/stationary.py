@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from yawdesign.problem import Problem, ProblemError
+from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
 from yawdesign.response.frequency import one_speed, outputs
 from yawdesign.response.system import INPUTS, Float, System, system_at
@@ -73,7 +74,11 @@ def stationary_response(problem: Problem, track: Any = "german-low", *, speed: A
     road = as_track(track)
     if not isinstance(road, RandomTrack):
         raise ProblemError(f"track: {road.name} is not random, a stationary root mean square needs a spectrum")
-    system = system_at(problem, one_speed(problem, speed))
+    mistakes = Mistakes()
+    with mistakes.under("speed"):
+        v = one_speed(problem, speed)
+    mistakes.report()
+    system = system_at(problem, v)
     if system.eigenvalues.real.max() >= 0:
         raise ProblemError(f"the bogie is unstable at {3.6 * system.v:.4g} km/h: there is no stationary motion")
     rms_of = {which: np.sqrt(_mean_squares(system, road, which)) for which in INPUTS}

@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 
 from yawdesign.problem import ProblemError
+from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
-from yawdesign.problem.table import as_quantity
+from yawdesign.problem.table import as_choice, as_quantity
 from yawdesign.response.system import INPUTS, Float
 from yawdesign.response.track import Clock, RandomTrack, synthesise
 from yawdesign.response.tracks import as_track
@@ -75,10 +76,19 @@ def spectrum_check(
     """
     from scipy.signal import welch
 
+    mistakes = Mistakes()
+    with mistakes.under("input"):
+        as_choice(input, INPUTS)
+    with mistakes.under("speed"):
+        v = float(SPEED.check(speed))
+    with mistakes.under("length"):
+        way = float(as_quantity(length, "m"))
+        if not way > 0:
+            raise ProblemError(f"{length} must be more than 0")
+    mistakes.report()
     road = as_track(track, seed=seed)
     if not isinstance(road, RandomTrack) or input not in road.spectrum.densities:
         raise ProblemError(f"track: {road.name} has no spectrum of {input}")
-    v, way = float(SPEED.check(speed)), float(as_quantity(length, "m"))
     low, high = road.band.hertz(v)
     steps = 2 * int(np.ceil(way / v * high * PER_WAVE / 2))
     clock = Clock(way / v / steps, steps)

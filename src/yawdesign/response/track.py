@@ -6,6 +6,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from yawdesign.problem import ProblemError
+from yawdesign.problem.arguments import checked, named
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.quantities import parse_quantity
 from yawdesign.problem.table import as_choice, as_quantity
@@ -76,6 +77,7 @@ class Smooth:
         return Lines(np.zeros(0), np.zeros((0, 2 * len(INPUTS)), dtype=complex))
 
 
+@named
 @dataclass(frozen=True)
 class Harmonic:
     """A harmonic track.
@@ -107,15 +109,17 @@ class Harmonic:
         with mistakes.under("input"):
             as_choice(self.input, INPUTS)
         with mistakes.under("amplitude"):
-            unit = "rad" if self.input == "cross_level" else "m"
-            object.__setattr__(self, "amplitude", float(as_quantity(self.amplitude, unit)))
+            object.__setattr__(self, "amplitude", float(as_quantity(self.amplitude, self._unit)))
         mistakes.report()
+
+    @property
+    def _unit(self) -> str:
+        return "rad" if isinstance(self.input, str) and self.input == "cross_level" else "m"
 
     @property
     def notes(self) -> tuple[str, ...]:
         """Amplitude and wavelength."""
-        unit = "rad" if self.input == "cross_level" else "m"
-        return (f"{self.input} of amplitude {self.amplitude:g} {unit}, wavelength {self.wavelength:g} m",)
+        return (f"{self.input} of amplitude {self.amplitude:g} {self._unit}, wavelength {self.wavelength:g} m",)
 
     def fastest(self, v: float) -> float:
         """Return v / wavelength [Hz]."""
@@ -127,6 +131,7 @@ class Harmonic:
         return Lines(omega, self.amplitude * system.harmonic_input(omega, self.input))
 
 
+@named
 @dataclass(frozen=True)
 class Sinusoid:
     """The disturbance of the paper's Table II: the track under the front wheelset moves by ``amplitude sin(omega t)``.
@@ -170,6 +175,7 @@ class Sinusoid:
         return Lines(np.array([self.omega]), np.array([[-1j * self.amplitude, 0, 0, 0]]))
 
 
+@named
 @dataclass(frozen=True)
 class Band:
     """What part of a spectrum is used.
@@ -214,6 +220,7 @@ class Band:
         return " to ".join(end if isinstance(end, str) else f"{end:g} Hz" for end in (self.low, self.high))
 
 
+@checked
 @dataclass(frozen=True, eq=False)
 class RandomTrack:
     """Random irregularity with a given spectrum: harmonics of fixed amplitude and random phase, periodic in the run.
