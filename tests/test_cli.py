@@ -166,6 +166,7 @@ def test_console_without_unicode():
     assert done.stderr == b""
 
 
+@pytest.mark.slow
 def test_as_a_module():
     """The package itself runs as the command, and its processes find their way back to it."""
     command = [sys.executable, "-m", "yawdesign", "sweep", PROBLEMS / "table1.yaml", "--of", "stable", "--jobs", "2"]

@@ -85,6 +85,7 @@ def test_critical_values_of_the_reference_bogies(case, of_case):
     assert not answers.unverified[0]
 
 
+@pytest.mark.slow
 def test_critical_values_are_certified(random_bogies):
     for p, model in random_bogies(40, seed=11):
         answers = evaluate(question("critical", model), p)
