@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -11,9 +12,11 @@ import pytest
 from typer.testing import CliRunner
 
 from yawdesign.cli import app, main
+from yawdesign.problem import schema
 
 PROBLEMS = Path(__file__).parents[1] / "problems"
 RUN = CliRunner()
+HEAVY = {"casadi", "numpy", "scipy", "matplotlib"}
 DESIGN_KEYS = {"critical", "stable_intervals", "C_sl", "C_su", "C_s", "status", "stable", "sensitivity"}
 
 
@@ -118,7 +121,37 @@ def test_new_check_and_force(tmp_path):
     assert file.read_text() != before
     assert run("new", tmp_path / "no" / "such" / "folder.yaml").exit_code == 2
     assert run("new", tmp_path / "x.yaml", "--kind", "wagon").exit_code == 2
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["power.yaml", "trailer.yaml"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["power.yaml", "problem.schema.json", "trailer.yaml"]
+
+
+def test_new_writes_the_schema_that_its_first_line_names(tmp_path):
+    done = run("new", tmp_path / "problem.yaml")
+    assert (done.exit_code, done.stderr) == (0, "")
+    name = re.match(r"# yaml-language-server: \$schema=(\S+)\n", (tmp_path / "problem.yaml").read_text())[1]
+    written = tmp_path / name
+    assert json.loads(written.read_text(encoding="utf-8")) == schema()
+    assert written.read_text(encoding="utf-8") == run("schema").stdout
+    assert run("new", tmp_path / "second.yaml").stderr == ""
+
+
+def test_new_keeps_another_file_of_the_schemas_name(tmp_path):
+    mine = tmp_path / "problem.schema.json"
+    mine.write_text("mine")
+    done = run("new", tmp_path / "problem.yaml")
+    assert done.exit_code == 0
+    assert f"note: {mine} was there and is kept" in done.stderr
+    assert mine.read_text() == "mine"
+    assert run("new", tmp_path / "problem.yaml", "--force").stderr == ""
+    assert json.loads(mine.read_text(encoding="utf-8")) == schema()
+    refused = run("new", mine, "--force")
+    assert refused.exit_code == 2
+    assert "choose another name" in refused.stderr
+    assert json.loads(mine.read_text(encoding="utf-8")) == schema()
+
+
+def test_new_to_a_device_writes_nothing_beside_it():
+    assert run("new", "/dev/null", "--force").exit_code == 0
+    assert not Path("/dev/problem.schema.json").exists()
 
 
 def test_schema_is_json():
@@ -126,7 +159,7 @@ def test_schema_is_json():
 
 
 def test_console_without_unicode():
-    command = [sys.executable, "-m", "yawdesign.cli", "stability", str(PROBLEMS / "table1.yaml")]
+    command = [sys.executable, "-m", "yawdesign", "stability", str(PROBLEMS / "table1.yaml")]
     environment = {**os.environ, "PYTHONIOENCODING": "ascii", "LC_ALL": "C"}
     done = subprocess.run(command, capture_output=True, env=environment, check=False)
     assert done.returncode == 0, done.stderr
@@ -134,12 +167,47 @@ def test_console_without_unicode():
     assert done.stderr == b""
 
 
+@pytest.mark.slow
+def test_as_a_module():
+    """The package itself runs as the command, and its processes find their way back to it."""
+    command = [sys.executable, "-m", "yawdesign", "sweep", PROBLEMS / "table1.yaml", "--of", "stable", "--jobs", "2"]
+    done = subprocess.run([*command, "--over", "C_s=1e4:1e6:3", "--json"], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout)["values"] == [False, True, True]
+
+
+def completed(shell, words):
+    """Return what a shell is told for the last of some words, and the heavy libraries that were imported for it."""
+    code = "import sys\nfrom yawdesign.cli import app\ntry: app(prog_name='yawdesign')\nfinally: print(*sys.modules)"
+    variables = {"COMP_WORDS": words, "COMP_CWORD": str(words.count(" ")), "_TYPER_COMPLETE_ARGS": words}
+    more = {"_TYPER_COMPLETE_FISH_ACTION": "get-args", "_TYPER_COMPLETE_WORD_TO_COMPLETE": words.split()[-1]}
+    environment = {**os.environ, "_YAWDESIGN_COMPLETE": f"complete_{shell}", **variables, **more}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=False)
+    assert done.stderr == ""
+    *lines, modules = done.stdout.splitlines()
+    return "\n".join(lines), HEAVY & set(modules.split())
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish", "powershell"])
+def test_completion_of_commands_and_options(shell):
+    for words, wanted in (("yawdesign opt", "optimise"), ("yawdesign sweep --ov", "--over")):
+        text, heavy = completed(shell, words)
+        assert wanted in text
+        assert not heavy
+
+
+def test_completion_says_how_it_is_set_up():
+    shown = run("--help").stdout
+    assert "--install-completion" in shown
+    assert "--show-completion" in shown
+
+
 def test_help_is_light():
     """--help must answer at once: none of the heavy libraries is imported."""
     code = (
         "import sys\nfrom yawdesign.cli import app\n"
         "try: app(['--help'])\nexcept SystemExit: pass\n"
-        "heavy = {'casadi', 'numpy', 'scipy', 'matplotlib'} & set(sys.modules)\n"
+        f"heavy = {HEAVY} & set(sys.modules)\n"
         "sys.exit(f'imported {heavy}' if heavy else 0)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)

@@ -124,6 +124,7 @@ def test_no_scheduler(monkeypatch):
     assert "no scheduler answers at tcp://127.0.0.1:1" in done.stderr
 
 
+@pytest.mark.slow
 def test_jobs_and_dask(tmp_path):
     from distributed import LocalCluster
 
@@ -193,6 +194,7 @@ def test_a_disk_without_any_room(monkeypatch, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_device_that_is_full():
     if not Path("/dev/full").is_char_device():
         return

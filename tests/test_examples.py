@@ -3,9 +3,12 @@
 import importlib.util
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[1]
 
 
+@pytest.mark.slow
 def test_pictures_of_the_documents(tmp_path, monkeypatch):
     spec = importlib.util.spec_from_file_location("figures", ROOT / "examples" / "figures.py")
     figures = importlib.util.module_from_spec(spec)

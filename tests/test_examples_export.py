@@ -44,6 +44,7 @@ def run(*command, code=0, cwd=None):
     return done
 
 
+@pytest.mark.slow
 def test_c_program_finds_the_critical_damping_of_table_1(program):
     lines = [
         line.rsplit(" ", 1) if line.startswith("d ") else line.split()[:2] for line in run(program).stdout.splitlines()
@@ -95,6 +96,7 @@ def test_critical_damping_inside_an_nlp(exported):
         assert cost(*near) > cost(J_b, C_m) or answer(*near) > 30e3
 
 
+@pytest.mark.slow
 def test_python_control(tmp_path):
     picture = tmp_path / "bode.png"
     out = run(

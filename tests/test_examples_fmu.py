@@ -25,6 +25,7 @@ def printed(tmp_path_factory):
     return [float(word) for word in words if word[0].isdigit()]
 
 
+@pytest.mark.slow
 def test_ride_over_a_sine_and_a_failing_damper(printed):
     problem = yd.load(ROOT / "problems" / "table1.yaml")
     sound, failed = (yd.state_space(problem.replace(C_s=C_s)) for C_s in (problem.bogie.C_s, 10e3))

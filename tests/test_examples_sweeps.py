@@ -3,9 +3,12 @@
 import importlib.util
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[1]
 
 
+@pytest.mark.slow
 def test_pictures_of_the_page_on_sweeps(tmp_path, monkeypatch):
     spec = importlib.util.spec_from_file_location("sweeps", ROOT / "examples" / "sweeps.py")
     sweeps = importlib.util.module_from_spec(spec)

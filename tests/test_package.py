@@ -4,6 +4,11 @@ import dataclasses
 import importlib
 import inspect
 import pickle
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -46,3 +51,17 @@ def test_results_are_plain_data_and_readable():
     with pytest.raises(dataclasses.FrozenInstanceError):
         result.stable = False
     assert np.isclose(result.damping_ratio, min(m.damping_ratio for m in result.modes))
+
+
+def test_every_dependency_has_a_lowest_version_that_is_tested():
+    """The constraints of .ci/run name every library but the tools of development."""
+    root = Path(__file__).parents[1]
+    project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = {name: list_ for name, list_ in project["optional-dependencies"].items() if name != "dev"}
+    named = {re.split(r"[\[<>=! ]", text)[0] for text in sum(extras.values(), project["dependencies"])} - {"yawdesign"}
+    done = subprocess.run(
+        [sys.executable, root / ".ci" / "lowest.py"], capture_output=True, text=True, check=True, encoding="utf-8"
+    )
+    constraints = dict(line.split("==") for line in done.stdout.splitlines())
+    assert named <= set(constraints)
+    assert "casadi" in named

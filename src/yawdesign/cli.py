@@ -21,7 +21,6 @@ DONE, NOTHING_FEASIBLE, BAD_INPUT, SOLVER_FAILED, STOPPED = 0, 1, 2, 3, 128  # 1
 app = typer.Typer(
     help="Yaw damper design for motor bogies: hunting stability, curving limit and optimum.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -391,19 +390,35 @@ def export(
 def new(
     file: Annotated[str, typer.Argument(help="The file to write.")] = "problem.yaml",
     kind: Annotated[str, typer.Option(help="power or trailer.")] = "power",
-    force: Annotated[bool, typer.Option("--force", help="Replace the file if it exists.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
 ) -> None:
-    """Write a commented problem file to start from."""
+    """Write a commented problem file to start from, and beside it the schema that editors use."""
     from yawdesign.output.targets import Target, checked_targets
-    from yawdesign.problem import ProblemError, starter
+    from yawdesign.problem import SCHEMA_FILE, ProblemError, starter
     from yawdesign.problem.writing import write_whole
 
     with _mistakes_shown():
         if kind not in ("power", "trailer"):
             raise ProblemError(f"--kind {kind} is not one of power, trailer")
+        path = Path(file)
+        if path.name == SCHEMA_FILE:
+            raise ProblemError(f"{file}: the schema is written under this name beside the problem: choose another name")
         checked_targets([Target("", file, replaced=force)], [])
-        write_whole(Path(file), starter(kind).encode(), replace=force)
+        write_whole(path, starter(kind).encode(), replace=force)
+        if path.is_file():
+            _write_schema(path.with_name(SCHEMA_FILE), force)
     typer.echo(f"wrote {file}; next: yawdesign optimise {file}")
+
+
+def _write_schema(path: Path, force: bool) -> None:
+    """Write the schema; another file of that name stays, with a note, unless `force` is given."""
+    from yawdesign.problem.writing import write_whole
+
+    content = _schema_text().encode()
+    if not path.exists() or force:
+        write_whole(path, content, replace=force)
+    elif path.read_bytes() != content:
+        _tell(f"note: {path} was there and is kept; it is not the schema of this version, which --force puts there")
 
 
 @app.command()
@@ -417,10 +432,14 @@ def check(file: ProblemFile) -> None:
 @app.command()
 def schema() -> None:
     """Print the JSON Schema of the problem file, for editors."""
+    with _mistakes_shown():
+        typer.echo(_schema_text(), nl=False)
+
+
+def _schema_text() -> str:
     from yawdesign.problem import schema as problem_schema
 
-    with _mistakes_shown():
-        typer.echo(json.dumps(problem_schema(), indent=2, ensure_ascii=False))
+    return json.dumps(problem_schema(), indent=2, ensure_ascii=False) + "\n"
 
 
 @app.callback(invoke_without_command=True)

@@ -209,6 +209,7 @@ def relative_error(float_polynomial, exact_polynomial):
     return worst
 
 
+@pytest.mark.slow
 def test_every_coefficient_is_right_to_the_last_digits(random_bogies, rational):
     worst = 0.0
     for p, model in random_bogies(300, spread=100, seed=5):

@@ -14,6 +14,7 @@ rationals = st.fractions(-100, 100, max_denominator=50)
 polynomials = st.lists(rationals, max_size=6).map(tuple)
 
 
+@pytest.mark.slow
 @given(polynomials, polynomials, polynomials, rationals)
 def test_ring(p, q, r, s):
     def value(x):
@@ -93,6 +94,7 @@ def sparse(matrix):
     return {(i, j): matrix[i][j] for i in range(n) for j in range(n) if matrix[i][j] or i == j}
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(matrices)
 def test_determinant_is_that_of_leibniz(matrix):

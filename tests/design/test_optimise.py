@@ -36,6 +36,7 @@ def recomputed(problem, result):
     return -s.real.max() if result.objective == "decay_rate" else (-s.real / abs(s)).min()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("objective", "equations"), BEST)
 def test_best_known_optima(objective, equations):
     problem = problem_of(objective, equations)
@@ -51,6 +52,7 @@ def test_best_known_optima(objective, equations):
     assert ("rotational_resistance" in result.active) == (objective == "decay_rate")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("objective", "equations"), [("decay_rate", "reciprocal"), ("damping_ratio", "as-printed")])
 def test_ten_seeds_give_one_answer(objective, equations):
     results = [yd.optimise(problem_of(objective, equations), seed=seed) for seed in range(10)]
@@ -71,6 +73,7 @@ def test_one_variable_against_a_scan():
     assert result.optimum["K_m"] == pytest.approx(626480)  # not a variable: stays as given
 
 
+@pytest.mark.slow
 def test_other_parameters_may_vary():
     problem = problem_of(
         "decay_rate", "reciprocal", C_s=yd.Variable(min=1e4, max=1e7), K_mphi=yd.Variable(min=1e5, max=1e6)
@@ -81,6 +84,7 @@ def test_other_parameters_may_vary():
     assert result.margin == pytest.approx(min(m.decay_rate for m in result.modes), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_four_variables_do_not_lose_to_three():
     three = problem_of("decay_rate", "as-printed")
     four = yd.Design(variables={**three.design.variables, "K_2y": yd.Variable(min=0.4e6, max=1.6e6)})
@@ -118,6 +122,7 @@ def test_user_options_win():
         yd.optimise(problem, options={"ipopt.no_such_option": 1})
 
 
+@pytest.mark.slow
 def test_damping_may_start_at_zero():
     variables = {"C_s": yd.Variable(min=0, max=1e7), "K_2x": yd.Variable(min=1e5, max=1e7)}
     assert yd.optimise(problem_of("decay_rate", "reciprocal", **variables)).status == "optimal"

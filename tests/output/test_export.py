@@ -61,6 +61,7 @@ def compiled(to, program, *flags):
     return out
 
 
+@pytest.mark.slow
 def test_c_code_passes_its_self_test_under_sanitizers(exported):
     to, task = exported
     done = subprocess.run([compiled(to, "selftest", *CHECKED)], capture_output=True, text=True, check=False)
@@ -138,6 +139,7 @@ int main(void) {
 """
 
 
+@pytest.mark.slow
 def test_mex_gateway(small, tmp_path):
     # MATLAB is not at hand: its interface is a stub, the gateway is the real one.
     (tmp_path / "call.c").write_text(MEX_CALL)
@@ -150,6 +152,7 @@ def test_mex_gateway(small, tmp_path):
     assert out[2] == "1"
 
 
+@pytest.mark.slow
 def test_makefile_and_example(small, tmp_path):
     to = shutil.copytree(small, tmp_path / "copy")
     done = subprocess.run(["make", "-s", "-C", to, "all", "check"], capture_output=True, text=True, check=False)

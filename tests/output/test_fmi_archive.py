@@ -273,6 +273,7 @@ def test_a_place_that_cannot_be_written_is_named_and_left_clean(tmp_path, monkey
     assert [file.name for file in tmp_path.iterdir()] == ["file"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("compiler", [True, False])
 def test_export_on_the_command_line(tmp_path, compiler):
     problem = Path(__file__).parents[2] / "problems" / "table1.yaml"

@@ -84,6 +84,7 @@ def test_a_positive_yaw_turns_the_front_to_the_left(modes):
     assert drawn[:, 1].mean() == pytest.approx(frame.y.real + modes.parameters["b_1"] * np.cos(frame.phi.real))
 
 
+@pytest.mark.slow
 def test_gif_has_one_cycle(modes):
     picture = Image.open(io.BytesIO(gif(modes)))
     assert picture.n_frames == FRAMES

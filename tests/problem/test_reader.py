@@ -443,12 +443,14 @@ def edited(draw):
     return "\n".join(lines)
 
 
+@pytest.mark.slow
 @given(edited())
 @settings(QUICK, max_examples=300)
 def test_random_edits(text):
     survives(text)
 
 
+@pytest.mark.slow
 @given(st.text(max_size=40), st.sampled_from(["title", "equations", "speed", "M_b", "R", "C_s"]))
 @QUICK
 def test_random_values_in_quotes(text, key):

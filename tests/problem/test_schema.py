@@ -1,15 +1,19 @@
 """The JSON Schema that editors use, and the documentation that people read."""
 
+import contextlib
 import json
 import re
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
 from ruamel.yaml import YAML
 
-from yawdesign.problem import PARAMETERS, read, schema, starter
+from yawdesign.problem import PARAMETERS, ProblemError, parse_quantity, read, schema, starter
 from yawdesign.problem.running import CURVE, SPEED
+from yawdesign.problem.units import unit_names
 
 ROOT = Path(__file__).parents[2]
 PROBLEMS = sorted((ROOT / "problems").glob("*.yaml"))
@@ -87,6 +91,68 @@ def test_broken_problems_do_not_fit(text):
     assert errors(text)
 
 
+UNITS_OF = {
+    "M_b": ("7186", "7.2 t", "15842 kg", "1e6 g", "70 N*s**2/m", "3 (kg)", "3 kg·m/m", "7 186 kg "),
+    "J_b": ("9 t m²", "9e3 kg·m^2", "9 m^2 t", "4 N m s²", "4 J s^2"),
+    "W": ("120 kN", "5 kg m/s²", "4 J/m", "4 Pa m^2"),
+    "K_1x": ("40 MN/m", "40 N/mm", "3 N m^-1", "3 kg/s^2", "3 kg s⁻²", "3 N·m/m^2", "5 N m/m^2"),
+    "K_mphi": ("361.69 kN·m/rad", "3 kN m", "3 m kN / rad", "4 kJ", "4 kJ/rad", "3 N m/deg"),
+    "C_s": ("1 000 kN·s/m", "1 s kN/m", "3 N/(m/s)", "3 kg/s", "2 J s/m^2", "2 N/(mm s^-1)", "2 N s m^-1"),
+    "C_mphi": ("11.52 kN·s·m/rad", "3 m s kN/rad", "3 J s", "3 N·m/(rad/s)", "3 N m s"),
+    "a": ("1250 mm", "1.25 m", "125 cm", "1 mph min", "0.5 m s/s"),
+    "lambda": ("0.15", "15 %", "0.15 -", "0.1 rad", "3 deg", "150 mm/m"),
+}
+WRONG_UNITS = (
+    *("parsec", "kmh", "Kg", "kNm", "zz", "kg parsec", "m/parsec", "kN·s/m)parsec", "-"),
+    *("kg", "mm", "s", "kN", "Pa", "W", "Hz", "m/s", "mph", "kN/m", "N m", "kN·m/rad", "m kN", "kN s / m", "s·N/m"),
+    *("N/(m/s)", "kg·m²", "m**2 kg", "N m s/rad", "N·m·s", "rad", "%", "kg/s", "kg/s^2"),
+)
+
+
+@pytest.mark.parametrize("key", UNITS_OF)
+def test_units_are_those_that_the_reader_takes(key):
+    """What is right fits; names that are no unit, and usual units of other quantities, do not."""
+    row, right = PARAMETERS[key], UNITS_OF[key]
+    for written in [*right, *(f"1 {unit}" for unit in WRONG_UNITS)]:
+        try:
+            parse_quantity(written, row.unit)
+        except ProblemError:
+            assert written not in right
+            assert errors(f"{{bogie: {{base: table1, {key}: '{written}'}}, speed: 80}}"), written
+        else:
+            assert not errors(f"{{bogie: {{base: table1, {key}: '{written}'}}, speed: 80}}"), written
+
+
+names = st.sampled_from(unit_names())
+factors = st.builds(str.__add__, names, st.sampled_from(["", "", "^2", "²", "**3", "^-1", "⁻¹", " ^ 2"]))
+brackets = st.builds("({})".format, st.builds("{}/{}".format, factors, factors))
+products = st.lists(factors | brackets, min_size=1, max_size=4).flatmap(
+    lambda parts: st.lists(st.sampled_from([" ", "·", "*", "/", " / "]), min_size=3, max_size=3).map(
+        lambda signs: "".join(map(str.__add__, parts, [*signs[: len(parts) - 1], ""]))
+    )
+)
+
+
+def patterns():
+    """Yield a parameter for each unit of the table, with the pattern of its texts in the schema."""
+    everything = VALIDATOR.schema
+    properties = {
+        **everything["$defs"]["Bogie"]["properties"],
+        SPEED.key: everything["properties"]["speed"]["oneOf"][0],
+    }
+    for row in {row.unit: row for row in [*PARAMETERS.values(), SPEED]}.values():
+        name = properties[row.key]["anyOf"][1]["$ref"].removeprefix("#/$defs/")
+        yield pytest.param(row, re.compile(everything["$defs"][name]["pattern"]), id=name)
+
+
+@pytest.mark.parametrize(("row", "pattern"), list(patterns()))
+@given(unit=products, number=st.sampled_from(["1", "-4.5", "1 000.25", "3e3", ".5"]))
+def test_no_right_unit_is_refused(row, pattern, unit, number):
+    with contextlib.suppress(ProblemError):
+        parse_quantity(f"{number} {unit}", row.unit)
+        assert pattern.search(f"{number} {unit}")
+
+
 def test_starters_without_one_parameter_do_not_fit():
     for key, row in PARAMETERS.items():
         without = re.sub(rf"^  {key}: .*\n", "", starter(), flags=re.MULTILINE)
@@ -127,7 +193,7 @@ def test_the_page_has_the_row_of_every_parameter(row):
 
 def test_the_page_names_every_other_key():
     for part in [schema(), *schema()["$defs"].values()]:
-        for key in part["properties"]:
+        for key in part.get("properties", ()):
             assert f"`{key}`" in PAGE
     for choice in re.findall(r'"enum": \[([^]]*)\]', json.dumps(schema())):
         for name in json.loads(f"[{choice}]"):

@@ -128,6 +128,7 @@ def problem_of(p, model):
     return yd.Problem(bogie=yd.Bogie(kind=model["kind"], **given), speed=p["v"], equations=model["equations"])
 
 
+@pytest.mark.slow
 @given(seed=st.integers(0, 2**32 - 1), name=st.sampled_from(["C_s", "v", "K_m", "lambda", "J_m", "C_t", "a"]))
 @settings(max_examples=25, deadline=None)
 def test_a_path_backwards_is_the_same_path(random_bogies, seed, name):

@@ -57,6 +57,7 @@ def test_spectrum_and_lyapunov(kmh, which):
         assert rms[name] == pytest.approx(expected[k], rel=1e-4)
 
 
+@pytest.mark.slow
 def test_spectrum_and_a_long_run():
     run = yd.simulate(PROBLEM, duration=300).runs[0]
     for name, expected in yd.stationary_response(PROBLEM).rms.items():

@@ -71,6 +71,7 @@ def test_progress(expected):
     assert seen[-1] == ("30 of 30 points", 1.0)
 
 
+@pytest.mark.slow
 def test_a_killed_worker_loses_nothing_that_was_finished(expected, tmp_path):
     file = tmp_path / "kept.npz"
     grid = {"of": "critical", "v": np.linspace(70, 100, 600)}

@@ -7,7 +7,7 @@ from .presets import table1
 from .quantities import format_quantity, parse_quantity, to_unit
 from .reader import load, loads, read
 from .running import Curve, SpeedRange
-from .schema import schema
+from .schema import SCHEMA_FILE, schema
 from .starter import starter
 from .table import Parameter
 from .variables import Design, Variable
@@ -15,6 +15,7 @@ from .written import Written, exact
 
 __all__ = [
     "PARAMETERS",
+    "SCHEMA_FILE",
     "Bogie",
     "Curve",
     "Design",

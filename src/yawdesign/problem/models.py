@@ -25,8 +25,10 @@ from pydantic import create_model as make
 from .diagnostics import ProblemError
 from .model import EQUATIONS
 from .parameters import KINDS, PARAMETERS, parameter_keys
+from .patterns import unit_pattern
 from .running import CURVE, LOADS, SPEED, STEPS
 from .table import Parameter, as_choice, as_count, as_text, check_end
+from .units import kind_of
 from .variables import OBJECTIVES
 
 PRESETS = ("table1",)
@@ -39,8 +41,6 @@ def _leaf(check: Callable[..., Any], schema: dict[str, Any]) -> Any:
 
 # A number with grouped digits and perhaps a power of ten; the unit is looked at by `check`.
 _QUANTITY = r"^\s*[-+]?(\d[\d _\u2009\u202f\u00a0]*(\.[\d _\u2009\u202f\u00a0]*)?|\.\d+)([eE][-+]?\d+)?\s*{unit}$"
-_WITH_UNIT = _QUANTITY.format(unit=r"([^\d\s,.][^,]*|1\s*/[^,]*)?")
-_WITHOUT_UNIT = _QUANTITY.format(unit="[-%]?")
 
 
 def _quantity_schema(row: Parameter) -> dict[str, Any]:
@@ -49,7 +49,8 @@ def _quantity_schema(row: Parameter) -> dict[str, Any]:
     hover = f"{row.meaning[:1].upper()}{row.meaning[1:]}, ${row.symbol}$ [{row.unit}]{si}. "
     hover += f"Accepted: {row.range_text(row.hard)}. Usual: {row.range_text(row.usual, row.unit)}."
     number = {"type": "number", "minimum": row.hard[0], "maximum": row.hard[1]}
-    text = {"type": "string", "pattern": _WITH_UNIT if unit else _WITHOUT_UNIT}
+    pattern = _QUANTITY.format(unit=unit_pattern(row.unit))
+    text = {"type": "string", "pattern": pattern, "description": kind_of(row.unit)}
     return {"description": hover, "anyOf": [number, text], "examples": [row.example]}
 
 

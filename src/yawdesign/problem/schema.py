@@ -9,13 +9,15 @@ from .parameters import MOTOR_KEYS, PARAMETERS, parameter_keys
 
 _TRAILER = {"required": ["kind"], "properties": {"kind": {"const": "trailer"}}}
 _PRESET = {"required": ["base"]}
+SCHEMA_FILE = "problem.schema.json"  # the name that the first line of a problem file refers to
 
 
 def schema() -> dict[str, Any]:
     """Return the JSON Schema (draft 2020-12) of a problem file.
 
-    It is generated from the same models that read the file. It knows keys, choices, ranges of plain numbers and the
-    shape of texts with a unit; only reading the file checks what a unit measures.
+    It is generated from the same models that read the file. It knows keys, choices, ranges of plain numbers, names of
+    units, and what the usual units measure; only reading the file checks unusual products of units and the range of
+    texts with a unit.
 
     Returns
     -------
@@ -27,7 +29,9 @@ def schema() -> dict[str, Any]:
     >>> sorted(schema()["required"])
     ['bogie', 'speed']
     """
-    found = _tidied(problem_model("power").model_json_schema())
+    texts: dict[str, Any] = {}
+    found = _shared(_tidied(problem_model("power").model_json_schema()), texts)
+    found["$defs"] |= texts
     bogie = found["$defs"]["Bogie"]
     bogie.pop("required")
     bogie["allOf"] = _bogie_rules()
@@ -43,6 +47,19 @@ def _tidied(part: Any) -> Any:
         return part
     made_up = {"title": isinstance(part.get("title"), str), "default": part.get("default") is None}
     return {key: _tidied(value) for key, value in part.items() if not made_up.get(key)}
+
+
+def _shared(part: Any, texts: dict[str, Any]) -> Any:
+    """Move the texts with a unit into `texts`, and put references in their place: their patterns are long."""
+    if isinstance(part, list):
+        return [_shared(item, texts) for item in part]
+    if not isinstance(part, dict):
+        return part
+    if "pattern" in part:
+        name = part["description"].removeprefix("a ").replace(" ", "-")
+        texts[name] = part
+        return {"$ref": f"#/$defs/{name}"}
+    return {key: _shared(value, texts) for key, value in part.items()}
 
 
 def _bogie_rules() -> list[dict[str, Any]]:

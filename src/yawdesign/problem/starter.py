@@ -12,7 +12,8 @@ from .variables import DEFAULT_BOUNDS, default_variables
 
 _HEAD = """\
 # yaml-language-server: $schema=problem.schema.json
-# The line above gives an editor completion and hover texts; `yawdesign schema > problem.schema.json` writes that file.
+# The line above gives an editor completion and hover texts. `yawdesign new` writes the file it names beside this one,
+# `yawdesign schema > problem.schema.json` writes it anew.
 #
 # A number alone is in SI (N, m, kg, s, rad); a text has a unit: 626.48 kN/m, 300 km/h, 11.52 kN·s·m/rad.
 # Blanks or _ group digits; *, · and blanks join units; ^2 or ² is a power; the decimal sign is a point.
@@ -71,7 +72,7 @@ def starter(kind: str = "power") -> str:
 
     Examples
     --------
-    >>> print(starter().splitlines()[7])
+    >>> print(starter().splitlines()[8])
     title: A power bogie
     """
     with (mistakes := Mistakes()).under("kind"):

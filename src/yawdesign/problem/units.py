@@ -180,3 +180,8 @@ def kind_of(unit: str) -> str:
     """Return what a unit measures, such as ``"a stiffness"``."""
     dimension = parse_unit(unit).dimension
     return _KINDS[dimension][0] if dimension in _KINDS else f"measured in {_spelled(dimension)}"
+
+
+def unit_names(dimension: Dimension | None = None) -> tuple[str, ...]:
+    """Return the names of all units, or of those of one dimension."""
+    return tuple(name for name, unit in _UNITS.items() if dimension in (None, unit.dimension))

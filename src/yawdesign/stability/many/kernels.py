@@ -117,12 +117,12 @@ def _count(rows: Sequence[Sequence[Number]]) -> list[ca.SX]:
 
 def _sure(rows: Sequence[Sequence[Number]]) -> list[ca.SX]:
     """Return for every entry of Routh's column whether it is larger than its doubt; what is no number is not."""
-    return [_doubt(rows, k) < abs(ca.SX(row[0])) for k, row in enumerate(rows)]
+    return [_doubt(rows, k) < ca.fabs(row[0]) for k, row in enumerate(rows)]
 
 
 def _doubt(rows: Sequence[Sequence[Number]], k: int) -> Number:
     minuend = rows[k - 2][2] if k >= 2 and len(rows[k - 2]) > 2 else 0
-    return LEFT_OVER * abs(minuend)
+    return LEFT_OVER * ca.fabs(minuend)
 
 
 def _tape(inputs: Mapping[str, ca.SX], outputs: Iterable[Number]) -> Tape:
