@@ -38,9 +38,10 @@ def _leaf(check: Callable[..., Any], schema: dict[str, Any]) -> Any:
 
 
 # A number with grouped digits and perhaps a power of ten; the unit is looked at by `check`.
-_QUANTITY = r"^\s*[-+]?(\d[\d _\u2009\u202f\u00a0]*(\.[\d _\u2009\u202f\u00a0]*)?|\.\d+)([eE][-+]?\d+)?\s*{unit}$"
-_WITH_UNIT = _QUANTITY.format(unit=r"([^\d\s,.][^,]*|1\s*/[^,]*)?")
-_WITHOUT_UNIT = _QUANTITY.format(unit="[-%]?")
+_TENS = r"([eE][-+]?\d+|\s*[×·⋅*x]\s*10((\^|\*\*)[-+\u2212]?\d+|[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))?"
+_QUANTITY = r"^\s*[-+]?(\d[\d _\u2009\u202f\u00a0]*(\.[\d _\u2009\u202f\u00a0]*)?|\.\d+){tens}\s*{unit}$"
+_WITH_UNIT = _QUANTITY.format(tens=_TENS, unit=r"([^\d\s,.][^,]*|1\s*/[^,]*)?")
+_WITHOUT_UNIT = _QUANTITY.format(tens=_TENS, unit="[-%]?")
 
 
 def _quantity_schema(row: Parameter) -> dict[str, Any]:

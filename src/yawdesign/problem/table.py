@@ -14,6 +14,7 @@ from .units import UnitError, kind_of, parse_unit, si_unit
 from .written import Written, exact
 
 T = TypeVar("T")
+MOST_BITS = 4000  # of an exact number: a double with a unit of any size has fewer
 Range = tuple[float, float]
 
 
@@ -144,9 +145,12 @@ def as_quantity(value: object, unit: str, si: str = "") -> Written:
     if isinstance(value, bool) or not isinstance(value, Real):
         raise ProblemError(f"{_shown(value)} is not a number, expected {kind_of(unit)} in {si or si_unit(unit)}")
     try:
-        return Written(value if isinstance(value, Written) else exact(value))  # type: ignore[arg-type]
+        number = Written(value if isinstance(value, Written) else exact(value))  # type: ignore[arg-type]
     except (ValueError, OverflowError):
         raise ProblemError(f"{_shown(value)} is not a finite number") from None
+    if max(number.exact.numerator.bit_length(), number.exact.denominator.bit_length()) > MOST_BITS:
+        raise ProblemError(f"{_shown(value)} has too many digits to compute with")
+    return number
 
 
 def as_choice(value: object, choices: Collection[str]) -> str:
@@ -197,7 +201,10 @@ def _shown(value: object) -> str:
         return "no value"
     if isinstance(value, bool):
         return str(value).lower()
-    text = value.strip() if isinstance(value, str) else f"{value!r}"
+    try:
+        text = value.strip() if isinstance(value, str) else f"{value!r}"
+    except ValueError:  # of a number that Python refuses to write out
+        text = "a number of thousands of digits"
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
