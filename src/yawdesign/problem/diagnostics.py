@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from typing import Literal, Self
 
+from .characters import visible
+
 _WIDEST_LINE = 160  # characters of a source line that a message repeats
 _SYNONYMS = {
     **{"conicity": "lambda", "v": "speed", "velocity": "speed", "axle_load": "W", "variable": "variables"},
@@ -48,7 +50,7 @@ class Diagnostic:
     def render(self) -> str:
         """Return the message as shown to a person: place, text, source line and underline."""
         place = ":".join(str(part) for part in (self.path, self.line, self.column) if part not in ("", None))
-        head = ": ".join(part for part in (place, self.severity, self.key, self.message) if part)
+        head = visible(": ".join(part for part in (place, self.severity, self.key, self.message) if part))
         return f"{head}\n{self._underlined()}" if self.line and self.source_line.strip() else head
 
     def _underlined(self) -> str:

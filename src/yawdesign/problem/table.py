@@ -8,12 +8,14 @@ from numbers import Real
 from types import MappingProxyType
 from typing import Any, TypeVar, cast
 
+from .characters import refusal
 from .diagnostics import Mistakes, ProblemError, suggestion
 from .quantities import format_number, format_quantity, parse_quantity, split_quantity
 from .units import UnitError, kind_of, parse_unit, si_unit
 from .written import Written, exact
 
 T = TypeVar("T")
+LONGEST_TEXT = 1000
 MOST_BITS = 4000  # of an exact number: a double with a unit of any size has fewer
 Range = tuple[float, float]
 
@@ -170,10 +172,16 @@ def as_count(value: object, low: int, high: int) -> int:
 
 
 def as_text(value: object) -> str:
-    """Return a text of one line."""
+    """Return a text of one line, without control characters."""
     if not isinstance(value, str):
         raise ProblemError(f"{_shown(value)} is not a text")
-    return value
+    text = value.removesuffix("\n")  # with which a YAML block ends
+    if len(text) > LONGEST_TEXT:
+        raise ProblemError(f"{_shown(value)} is longer than {LONGEST_TEXT} characters")
+    why = refusal(text)
+    if why:
+        raise ProblemError(why)
+    return text
 
 
 def check_fields(instance: Any) -> None:

@@ -27,7 +27,7 @@ def model_description(table: Sequence[Variable], *, token: str, title: str) -> s
         fmiVersion="3.0",
         modelName=IDENTIFIER,
         instantiationToken=token,
-        description="".join(char if char.isprintable() else " " for char in title),
+        description=title,
         generationTool=f"yawdesign {__version__}",
         variableNamingConvention="structured",
     )
