@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
+from numbers import Real
 from typing import Any, Literal, Self, get_args
 
 from .diagnostics import Mistakes, ProblemError, unknown_key
@@ -54,7 +55,7 @@ class Problem:
                 _instance(getattr(self, name), kind)
         if not isinstance(self.speed, SpeedRange):
             with mistakes.under("speed"):
-                object.__setattr__(self, "speed", SPEED.check(self.speed))
+                object.__setattr__(self, "speed", SPEED.accept(self.speed))
         mistakes.report()
         self._fill_design()
 
@@ -105,6 +106,9 @@ class Problem:
             with mistakes.under(key):
                 if key not in allowed:
                     raise ProblemError(NO_MOTOR if key in MOTOR_KEYS else unknown_key(key, allowed))
+        with mistakes.under("speed"):
+            if isinstance(speed := changes.get("speed"), Real):  # a speed that was computed is hardly whole
+                changes["speed"] = SPEED.accept(speed, doubtful=SPEED.check(speed).exact.denominator == 1)
         mistakes.report()
         mine = {name: value for name, value in changes.items() if name in own}
         bogies = {field_name(keys[name]): value for name, value in changes.items() if name not in own}

@@ -78,7 +78,7 @@ def spectrum_check(
     road = as_track(track, seed=seed)
     if not isinstance(road, RandomTrack) or input not in road.spectrum.densities:
         raise ProblemError(f"track: {road.name} has no spectrum of {input}")
-    v, way = float(SPEED.check(speed)), float(as_quantity(length, "m"))
+    v, way = float(SPEED.accept(speed)), float(as_quantity(length, "m"))
     low, high = road.band.hertz(v)
     steps = 2 * int(np.ceil(way / v * high * PER_WAVE / 2))
     clock = Clock(way / v / steps, steps)
