@@ -7,8 +7,10 @@ from typing import Any
 
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import suggestion
-from yawdesign.response.measured import MeasuredTrack, is_spectrum, read_spectrum, read_track
+from yawdesign.response.measured import MeasuredTrack, track_of
+from yawdesign.response.sheets import read_sheet
 from yawdesign.response.spectra import FORMS, SPECTRA, Spectrum, form_of
+from yawdesign.response.tabulated import is_spectrum, spectrum_of
 from yawdesign.response.track import Band, Harmonic, RandomTrack, Sinusoid, Smooth
 
 AnyTrack = Smooth | Harmonic | Sinusoid | RandomTrack | MeasuredTrack
@@ -55,7 +57,8 @@ def _of_text(text: str) -> Spectrum | AnyTrack:
         return form_of(text)
     if not Path(text).exists() and not Path(text).suffix:
         raise ProblemError(f"track: {text!r} is not one of {', '.join(NAMES)}, nor a file{suggestion(text, NAMES)}")
-    return read_spectrum(text) if is_spectrum(text) else read_track(text)
+    sheet = read_sheet(text)
+    return spectrum_of(sheet) if is_spectrum(sheet) else track_of(sheet)
 
 
 def shaped(track: str, *, wavelength: str | None, amplitude: str | None) -> str | AnyTrack:
