@@ -168,6 +168,8 @@ def _at(sheet: Sheet, row: int, column: int, key: str, message: str) -> Diagnost
 
 def _commas(sheet: Sheet, index: Mapping[str, int], rows: Sequence[int]) -> list[Diagnostic]:
     """Return the numbers with a comma if it may be something else than a decimal sign."""
+    if sheet.separator == ",":
+        return []
     places = [(row, name, k, sheet.body[row][1][k][1]) for row in rows for name, k in index.items()]
     why = comma_mistake(text for *_, text in places)
     return [
