@@ -23,6 +23,124 @@ def pytest_generate_tests(metafunc):
         metafunc.parametrize("model", models, ids=[" ".join(m) for m in MODELS])
 
 
+# What may come into a text by mistake or on purpose.
+PIECES = (
+    *(
+        "",
+        " ",
+        "  ",
+        "\n",
+        "\t",
+        ",",
+        ";",
+        ".",
+        ":",
+        ": ",
+        "#",
+        "[",
+        "]",
+        "{",
+        "}",
+        "(",
+        ")",
+        "-",
+        "+",
+        "*",
+        "/",
+        "^",
+        "_",
+        "%",
+    ),
+    *(
+        "'",
+        '"',
+        "\\",
+        "\0",
+        "\x1b",
+        "\u2028",
+        "\u00a0",
+        "\u2212",
+        "²",
+        "⁻",
+        "×",
+        "é",
+        "😀",
+        "\ufeff",
+        "\uffff",
+        '"\\ud800"',
+    ),
+    *(
+        "1e400",
+        "1e-400",
+        "9" * 400,
+        "1_0",
+        ".nan",
+        "inf",
+        "0x1F",
+        "1,5",
+        "1 000",
+        "×10⁶",
+        "^9)^9",
+        "((((((((((",
+        "12+345.6",
+    ),
+    *(
+        "km/h",
+        "kN.s/m",
+        "rad/m",
+        "1/m",
+        "m^2/(1/m)",
+        "[mm]",
+        "[rad/m]",
+        "km+m",
+        "&a [*a]",
+        "*a",
+        "&a ",
+        "!t ",
+        "<<: ",
+        "? ",
+    ),
+    *(
+        "- ",
+        "| ",
+        "> ",
+        "~",
+        "true",
+        "---\n",
+        "...\n",
+        "%YAML 1.1\n",
+        "wavenumber",
+        "distance",
+        "alignment",
+        "speed",
+        "base",
+    ),
+)
+
+
+@pytest.fixture(scope="session")
+def mutated():
+    """Return a text after a few random edits: pieces put in, cut out, doubled and exchanged."""
+
+    def mutate(text, rng):
+        for _ in range(rng.integers(1, 4)):
+            low, high = sorted(rng.integers(0, len(text) + 1, 2))
+            high = min(high, low + int(rng.choice([1, 1, 2, 30])))
+            piece = PIECES[rng.integers(len(PIECES))]
+            edits = (
+                piece,
+                "",
+                2 * text[low:high],
+                text[low:high][::-1],
+                text[low:high] + piece,
+                piece * int(rng.choice([2, 50])),
+            )
+            text = text[:low] + edits[rng.integers(len(edits))] + text[high:]
+        return text
+
+    return mutate
+
+
 @pytest.fixture
 def table1():
     """Table I in SI units at 300 km/h, as floats."""

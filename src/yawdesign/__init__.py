@@ -35,12 +35,13 @@ if TYPE_CHECKING:
     from yawdesign.response.component import DamperComponent
     from yawdesign.response.following import FollowedModes, follow_modes
     from yawdesign.response.frequency import FrequencyResponse, frequency_response
-    from yawdesign.response.measured import MeasuredTrack, read_spectrum, read_track
+    from yawdesign.response.measured import MeasuredTrack, read_track
     from yawdesign.response.modes import Modes, modes
     from yawdesign.response.simulate import Simulation, damper_component, simulate
     from yawdesign.response.spectra import SPECTRA, Spectrum
     from yawdesign.response.stationary import StationaryResponse, stationary_response
     from yawdesign.response.synthesis import SpectrumCheck, spectrum_check
+    from yawdesign.response.tabulated import read_spectrum
     from yawdesign.response.track import Band, Harmonic, RandomTrack, Sinusoid
     from yawdesign.stability.verdict import Stability, stability
     from yawdesign.study.result import Sweep
@@ -56,7 +57,8 @@ _HOMES = {
     "yawdesign.stability.verdict": ("Stability", "stability"),
     "yawdesign.response.component": ("DamperComponent",),
     "yawdesign.response.frequency": ("FrequencyResponse", "frequency_response"),
-    "yawdesign.response.measured": ("MeasuredTrack", "read_spectrum", "read_track"),
+    "yawdesign.response.measured": ("MeasuredTrack", "read_track"),
+    "yawdesign.response.tabulated": ("read_spectrum",),
     "yawdesign.response.simulate": ("Simulation", "damper_component", "simulate"),
     "yawdesign.response.spectra": ("SPECTRA", "Spectrum"),
     "yawdesign.response.stationary": ("StationaryResponse", "stationary_response"),

@@ -33,9 +33,11 @@ Force = Annotated[bool, typer.Option("--force", help="Replace files that are the
 @contextmanager
 def _mistakes_shown() -> Iterator[None]:
     from yawdesign.problem import ProblemError
+    from yawdesign.problem.diagnostics import UnitWarning
 
     try:
-        yield
+        with _warnings_told(UnitWarning):
+            yield
     except ProblemError as error:
         _tell(str(error))
         raise typer.Exit(BAD_INPUT) from None
@@ -209,11 +211,11 @@ def _show_sweep(result: Any, as_json: bool) -> None:
 
 
 @contextmanager
-def _warnings_told() -> Iterator[None]:
+def _warnings_told(kind: type[Warning] = RuntimeWarning) -> Iterator[None]:
     """Show warnings as messages."""
     with warnings.catch_warnings():
         warnings.showwarning = lambda message, *_: _tell(f"warning: {message}")
-        warnings.simplefilter("always", RuntimeWarning)
+        warnings.simplefilter("always", kind)
         yield
 
 

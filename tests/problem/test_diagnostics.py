@@ -40,6 +40,7 @@ def test_a_long_line_is_cut_around_the_mistake():
 
 def test_control_characters_do_not_reach_the_terminal():
     assert "\x1b" not in Diagnostic(message="m", line=1, column=1, source_line="a\x1b[31mb\tc").render()
+    assert Diagnostic(message="\x1b[31m", key="\ud800", path="a\nb").render() == r"a\nb: error: \ud800: \x1b[31m"
 
 
 def test_the_error_shows_all_and_travels():

@@ -112,6 +112,15 @@ def test_a_wrong_problem_lists_all_mistakes():
         assert f"error: {name}: " in text
 
 
+@pytest.mark.parametrize(
+    "char", ["\0", "\t", "\n", "\r", "\x1b", "\x7f", "\x85", "\u2028", "\ud800", "\ufffe", "\ufdd0"]
+)
+def test_titles_have_one_line_and_no_control_characters(char):
+    text = error(table1().replace, title=f"a{char}b")
+    assert "title: holds" in text
+    assert f"U+{ord(char):04X}" in text
+
+
 def test_replace_changes_the_problem_or_the_bogie():
     problem = table1().replace(C_s="2 MN s/m", lambda_=0.3, speed="250 km/h", curve=None, title="new")
     assert (problem.bogie.C_s, problem.bogie.lambda_, problem.title) == (2e6, 0.3, "new")

@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -36,6 +37,10 @@ design:
   variables:
     C_s: {min: 10 kN s/m, max: 10 MN s/m}
 """
+# Each anchor is as deep as what it names and 17 levels more: few values, but hundreds of levels.
+DEEP_ALIASES = "a: &a [x]\n" + "".join(
+    f"b{k}: &b{k} {'[' * 17}*{'a' if k == 0 else f'b{k - 1}'}{']' * 17}\n" for k in range(22)
+)
 BOMB = "a: &a [x,x,x,x,x,x,x,x,x]\n" + "".join(
     f"{new}: &{new} [{','.join([f'*{old}'] * 9)}]\n" for old, new in zip("abcdefgh", "bcdefghi", strict=True)
 )
@@ -144,11 +149,42 @@ def test_a_speed_range():
         GOOD.replace("R: 300 m", "R: &r 300 m").replace("L: 19 m", "L: 19 m # *r"),
         GOOD.replace("K_ds: 40 MN/m", "K_ds: &k 40 MN/m\n  K_dt: *k"),
         "? title\n: x\n" + GOOD.split("\n", 1)[1],
+        GOOD.replace("300 km/h", "300 km/h\t# fast").replace("40 MN/m", "40 MN/m \t \t# stiff"),
+        GOOD.replace("speed: ", "speed:\t")
+        .replace("M_b: 7186", "M_b: \t 7186")
+        .replace("bogie:", "bogie:\t# the bogie"),
+        GOOD.replace("speed:", "speed\t:").replace("40 MN/m", "'40 MN/m'\t# stiff"),
+        GOOD.replace("\n", "\t\n").replace("bogie:", "\t# a comment\n\t\nbogie:"),
+        GOOD.replace("{min: 10", "{\tmin:\t10").replace(", max", "\t,\n\t max").replace("s/m}", "s/m\t}\t# bounds"),
+        GOOD.replace("R: 300 m", "R: &r\t300 m"),
     ],
-    ids=["bom", "crlf", "document marks", "directive", "quotes", "anchor", "alias", "complex key syntax"],
+    ids=[
+        "bom",
+        "crlf",
+        "document marks",
+        "directive",
+        "quotes",
+        "anchor",
+        "alias",
+        "complex key syntax",
+        "tabs before comments",
+        "tabs after colons",
+        "tabs before colons",
+        "tabs at ends of lines",
+        "tabs in braces",
+        "tabs after marks",
+    ],
 )
 def test_ways_to_write_the_same(text):
-    assert loads(text).bogie == loads(GOOD).bogie
+    problem, diagnostics = read_text(text)
+    assert diagnostics == ()
+    assert problem == replace(loads(GOOD), title=problem.title)
+
+
+def test_a_title_in_a_block_ends_without_a_line_end():
+    assert loads(changed(1, "title: |\n  a bogie")).title == "a bogie"
+    assert loads(changed(1, "title: >\n  a\n  bogie\n")).title == "a bogie"
+    assert loads(changed(1, 'title: "drehgestell 轉向架 \\u00e9 😀"')).title == "drehgestell 轉向架 é 😀"
 
 
 # --------------------------------------------------------------- broken files
@@ -158,6 +194,25 @@ BROKEN = {
     "syntax, no blank after the colon": (changed(8, "speed:300 km/h"), [8], "is followed by a colon and a blank"),
     "syntax, quote left open": (changed(1, 'title: "a bogie'), [1], "the quote that opens here is not closed"),
     "tab as indent": (changed(6, "\tM_b: 7186 kg"), [6], "no tab"),
+    "tab and blanks as indent": (changed(6, "  \tM_b: 7186 kg"), [6], "no tab"),
+    "tab in a value": (changed(6, "  M_b: 7186\tkg"), [6], "no tab may stand inside a value"),
+    "tab after a dash": (changed(17, "    -\tC_s: 3"), [17], "a tab does not indent"),
+    "tab after the sign of a block": (changed(1, "title: >-\t# x\n  a bogie"), [1], "put a blank in place of this tab"),
+    "tab in a quoted value": (changed(6, '  M_b: "7186\\tkg"'), [6], "bogie.M_b: holds the control character U+0009"),
+    "lone surrogate": (changed(1, 'title: "\\ud800"'), [1], "title: holds U+D800"),
+    "half a surrogate pair": (changed(1, 'title: "\\udc00\\ud800"'), [1], "title: holds U+DC00"),
+    "escape sequence": (changed(1, 'title: "\\e[31mred"'), [1], "holds the control character U+001B"),
+    "nul": (changed(1, 'title: "\\0"'), [1], "holds the control character U+0000"),
+    "delete": (changed(1, 'title: "\\x7f"'), [1], "holds the control character U+007F"),
+    "title of two lines": (changed(1, 'title: "a\\nb"'), [1], "holds a line end"),
+    "title of two lines in a block": (changed(1, "title: |\n  a\n  b"), [1], "holds a line end"),
+    "line separator": (changed(1, 'title: "a\\Lb"'), [1], "holds a line end, U+2028"),
+    "no character": (changed(1, 'title: "\\uffff"'), [1], "holds U+FFFF"),
+    "control character in a key": (GOOD + '"a\\a": 3\n', [18, 18], "holds the control character U+0007"),
+    "control character in a choice": (changed(2, 'equations: "as-printed\\x02"'), [2], "the control character U+0002"),
+    "surrogate in a number": (changed(6, '  M_b: "7186 kg\\ud800"'), [6], "bogie.M_b: holds U+D800"),
+    "long title": (changed(1, "title: " + "a" * 1001), [1], "is longer than 1000 characters"),
+    "aliases deeper than the stack": (DEEP_ALIASES, [3], "nested deeper than 20 levels"),
     "doubled key": (changed(7, "  M_b: 7 t"), [7], "bogie.M_b: stands twice, first on line 6"),
     "doubled section": (GOOD + "speed: 80\n", [18], "stands twice"),
     "unknown key": (changed(7, "  K_dsx: 40 MN/m"), [7], "bogie.K_dsx: is not a known key; did you mean K_ds?"),

@@ -52,6 +52,7 @@ def test_the_starter_fits_the_schema(kind):
     [
         "{bogie: {base: table1}, speed: 80}",
         "{bogie: {base: table1, K_m: 6.3e5, b: 0.746 5 m, lambda: 15 %}, speed: {min: 200 km/h, max: 83, steps: 5}}",
+        "{bogie: {base: table1, K_m: 6×10⁵ N/m, C_t: 60 kN.s/m, J_b: 9.7 t.m2, lambda: 1.5×10^-1}, speed: 80 m/s}",
         "{bogie: {base: table1, kind: trailer}, speed: 0.5 km/h, design: {variables: {C_s: {min: 1, max: 2 N s/m}}}}",
     ],
 )

@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from yawdesign.problem import ProblemError, Written, exact, format_quantity, parse_quantity, to_unit
+from yawdesign.problem.table import as_quantity
 from yawdesign.problem.units import parse_unit, si_unit
 
 F = Fraction
@@ -60,6 +61,28 @@ F = Fraction
         ("2 h", F(7200)),
         ("2 kJ", F(2000)),
         ("2 kPa m", F(2000)),
+        ("2 kN.s/m", F(2000)),
+        ("1.5 kN s/m", F(1500)),
+        ("1.5 kN.s/m", F(1500)),
+        ("5.kN", F(5000)),
+        ("9.751 t.m2", F(9751)),
+        ("9 751 kg.m2", F(9751)),
+        ("3 kg m2/s2", F(3)),
+        ("3 m2.kg", F(3)),
+        ("3 s-1", F(3)),
+        ("3 kN.(s/m)", F(3000)),
+        ("6×10⁶ N/m", F(6_000_000)),
+        ("6 × 10^6 N/m", F(6_000_000)),
+        ("6·10**6 N/m", F(6_000_000)),
+        ("6*10^+6 N/m", F(6_000_000)),
+        ("6.5x10⁻³ m", F(65, 10000)),
+        ("6×10⁻³ m", F(6, 1000)),
+        ("6×10^\u22123 m", F(6, 1000)),
+        ("1.5×10⁻¹", F(3, 20)),
+        ("2 kgf/mm", F("19613.3")),
+        ("2 lbf/in", 2 * F("4.4482216152605") / F("0.0254")),
+        ("2 lb", F("0.90718474")),
+        ("3 ft", F("0.9144")),
     ],
 )
 def test_texts_become_exact_si_numbers(text, value):
@@ -105,7 +128,31 @@ def test_degrees_are_the_double_of_pi():
         ("1e-330 kg", "too small"),
         ("9" * 10_000 + " kg", "too long"),
         ("1" + "(" * 10_000, "too long"),
-        ("1 " + "(" * 150, "not a known unit"),
+        ("1 " + "(" * 150, "more than 9 brackets"),
+        ("3 " + "(" * 10 + "km" + "^9)" * 10, "more than 9 brackets"),
+        ("3 " + "(" * 9 + "km^9" + ")^9" * 9, "too large or too small"),
+        ("3 " + "(" * 9 + "mm^-9" + ")^9" * 9, "too large or too small"),
+        ("3 " + "(" * 9 + "%^9" + ")^9" * 9, "too large or too small"),
+        ("3 " + "(" * 9 + "m^9" + ")^9" * 9, "too large or too small"),
+        ("3 " + "(" * 9 + "rad^9" + ")^9" * 9, "too large or too small"),
+        ("3 " + "km^9 " * 36, "too large or too small"),
+        ("3 kNs/m", "did you mean kN s?"),
+        ("3 kgm2", "did you mean kg m?"),
+        ("3 Nmm", "did you mean N mm?"),
+        ("3 kp/mm", "did you mean kgf?"),
+        ("3 .kN", "not one number"),
+        ("3 kN. s", "not part of a unit"),
+        ("3 kN.", "not part of a unit"),
+        ("3 kN..s", "not part of a unit"),
+        ("3 N/m.s", "two ways"),
+        ("3 m.2", "not part of a unit"),
+        ("10^6 N/m", "a power of ten is written 1e6 or 1×10^6"),
+        ("10⁶ N/m", "a power of ten is written 1e6 or 1×10^6"),
+        ("6×10 N/m", "not a known unit"),
+        ("6×10⁹⁹⁹⁹⁹⁹⁹ N/m", "too large"),
+        ("6×10^-999999 N/m", "too small"),
+        ("6e6×10^6 N/m", "not a known unit"),
+        ("1'000 kg", "group digits with blanks"),
     ],
 )
 def test_wrong_texts_are_quick_errors(text, fragment):
@@ -124,6 +171,34 @@ def test_a_wrong_dimension_says_what_it_is_and_what_is_expected():
         parse_quantity("5 kg", "-")
     with pytest.raises(ProblemError, match="measured in"):
         parse_quantity("5 kg m^3", "kg")
+
+
+@pytest.mark.parametrize(
+    "text", ["km^9 " * 100, "(" * 10 + "km^9" + ")^9" * 10, "x" * 10_000, "m" * 90, "((km^9)^9)^9", "m^" + "9" * 10_000]
+)
+def test_units_without_bounds_are_quick_errors(text):
+    start = time.perf_counter()
+    with pytest.raises(ProblemError) as caught:
+        parse_unit(text)
+    assert len(str(caught.value)) < 300
+    assert time.perf_counter() - start < 0.5
+
+
+HUGE = {"int": 10**400, "longer": 10**5000, "near 1": F(10**5000 + 1, 10**5000), "tiny": F(1, 10**5000)}
+
+
+@pytest.mark.parametrize("value", HUGE.values(), ids=HUGE)
+def test_numbers_without_bounds_are_quick_errors(value):
+    start = time.perf_counter()
+    with pytest.raises(ProblemError) as caught:
+        as_quantity(value, "kg")
+    assert len(str(caught.value)) < 300
+    assert time.perf_counter() - start < 0.5
+
+
+def test_units_count_their_radians():
+    units = {"m": 0, "rad": 1, "rad/m": 1, "m^2/(rad/m)": -1, "mrad^2/(rad/m)": 1, "deg/m": 1, "1/m": 0, "m^3": 0}
+    assert {unit: parse_unit(unit).angle for unit in units} == units
 
 
 def test_radians_do_not_count_as_a_dimension():

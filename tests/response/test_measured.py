@@ -136,31 +136,144 @@ def test_a_run_longer_than_the_track(tmp_path):
     assert yd.simulate(yd.table1(), file, length="50 m").runs[0].duration == pytest.approx(50 * 3.6 / 300)
 
 
-def test_spectrum_from_a_file(tmp_path):
-    W = np.geomspace(0.01, 10, 400)
-    low = yd.SPECTRA["german-low"]
-    S, T = low.density("alignment", W), low.density("cross_level", W)
-    lines = [f"{a:.8e}, {b:.8e}, {c:.8e}" for a, b, c in zip(W, S, T, strict=True)]
-    head = "wavenumber [rad/m], alignment [m^2/(rad/m)], cross_level [rad^2/(rad/m)]"
-    spectrum = yd.read_spectrum(written(tmp_path, "\n".join([head, *lines])))
-    between = np.sqrt(W[1:] * W[:-1])
-    for which in ("alignment", "cross_level"):
-        assert spectrum.density(which, between) == pytest.approx(low.density(which, between), rel=1e-3)
-    lines = [f"{a:.8e}, {b:.8e}" for a, b in zip(W / (2 * np.pi), 2 * np.pi * S, strict=True)]
-    per_cycle = written(tmp_path, "\n".join(["spatial_frequency [1/m], alignment [m^2/(1/m)]", *lines]), "cycles.csv")
-    assert yd.read_spectrum(per_cycle).density("alignment", between) == pytest.approx(
-        low.density("alignment", between), rel=1e-3
+def track(tmp_path, *lines):
+    return yd.read_track(written(tmp_path, "\n".join(lines)))
+
+
+PLAIN = ("distance [m], alignment [mm]", "0, 1.5", "0.25, -2", "0.5, 3", "0.75, 4e-1")
+
+
+@pytest.mark.parametrize(
+    ("lines", "note"),
+    [
+        (("distance [m];alignment [mm]", "0;1,5", "0,25;-2", "0,5;3", "0,75;4e-1"), "decimal sign: 1,5 is 1.5"),
+        (("distance [m]\talignment [mm]", "0\t1.5", "0.25\t-2", "0.5\t3", "0.75\t0.4\t"), None),
+        (("distance [m]\talignment [mm]", "0\t1,5", "0,25\t-2", "0,5\t3", "0,75\t0,4"), "decimal sign: 1,5 is 1.5"),
+        (("distance, alignment", "m, mm", "0, 1.5", "0.25, -2", "0.5, 3", "0.75, 0.4"), None),
+        (("distance;alignment", "[m];[mm]", "0; 1.5", "0.25; -2", "0.5; 3", "0.75; 0.4;"), None),
+        (("distance [m], alignment [mm]", "m, mm", *PLAIN[1:]), None),
+        (("distance [m], alignment", ", mm", *PLAIN[1:]), None),
+        (
+            (
+                "n, distance [m], alignment [mm], twist, speed [km/h], ",
+                "a, 0, 1.5, ,x, ",
+                "b, 0.25, -2, ,, ",
+                "c, 0.5, 3,,1_0,",
+                "d, .75, .4,#,,",
+            ),
+            "not used: n, twist, speed, column 6",
+        ),
+        (("distance [km+m], alignment [mm]", "12+999.5, 1.5", "12+999.75, -2", "13+000, 3", "13+000.25, 0.4"), None),
+        (("distance [m], alignment [mm]", "12+999.5, 1.5", "12+999.75, -2", "13+000, 3", "13+000.25, 0.4"), None),
+        (("distance [km]; alignment [mm]", "0+000,5; 1,5", "0+000,75; -2", "0+001; 3", "0,00125; 0,4"), "1,5 is 1.5"),
+        (("distance [m], alignment [mm]", "7, 1.5", "6.75, -2", "6.5, 3", "6.25, 0.4"), "the distance falls"),
+        (("distance [km+m], alignment [mm]", "7+000.25, 1.5", "7+000, -2", "6+999.75, 3", "6+999.5, 0.4"), "7000.25 m"),
+        (('"distance [m]","alignment [mm]"', '"0","1.5"', '"0.25","\u22122"', '"0.5","3"', '"0.75","0.4"'), None),
+    ],
+)
+def test_ways_to_write_the_same_track(tmp_path, lines, note):
+    found, plain = track(tmp_path, *lines), track(tmp_path, *PLAIN)
+    assert np.diff(found.distance) == pytest.approx(np.diff(plain.distance))
+    assert found.alignment == pytest.approx(plain.alignment, rel=1e-12)
+    assert found.spacing == pytest.approx(0.25)
+    notes = "\n".join(found.notes[1:])
+    assert notes == "" if note is None else note in notes
+
+
+def test_a_falling_distance_is_run_over_in_the_order_of_the_rows(tmp_path):
+    rows = [f"{100 - k / 4}, {np.sin(k / 40)}" for k in range(400)]
+    found = track(
+        tmp_path,
+        "distance [m], alignment [m]".replace("[m]", "[m]", 1).replace("alignment [m]", "alignment [mm]"),
+        *rows,
     )
-    problem = yd.table1()
-    rms = [yd.stationary_response(problem, x).rms_of["alignment"]["y_b"] for x in (str(per_cycle), "german-low")]
-    assert rms[0] == pytest.approx(rms[1], rel=1e-3)
+    assert found.distance[:2] == pytest.approx([0, 0.25])
+    assert found.alignment[40] == pytest.approx(1e-3 * np.sin(1))
+    assert "counted from 100 m" in found.notes[-1]
+    assert "the distance must fall in equal steps" in mistakes(tmp_path, "\n".join([PLAIN[0], *rows[:30], *rows[33:]]))
+    result = yd.simulate(yd.table1(), written(tmp_path, "\n".join([PLAIN[0], *rows])))
+    assert "the distance falls" in "\n".join(result.notes)
 
 
-def test_mistakes_in_a_spectrum(tmp_path):
-    head = "wavenumber [rad/m], alignment [m^2/(rad/m)]"
-    text = mistakes(tmp_path, f"{head}\n0.1, 1e-6\n0.2, -1e-6\n0.15, 1e-7\n", yd.read_spectrum)
-    assert "track.csv:3:6: error: alignment: the density -1e-06 is negative" in text
-    assert "track.csv:4:1: error: wavenumber: 0.15 must be more than 0 and more than the one before" in text
-    wrong = mistakes(tmp_path, "wavenumber [rad/m], alignment [m^2]\n0.1, 1e-6\n0.2, 1e-6\n", yd.read_spectrum)
-    assert "alignment" in wrong
-    assert "fewer than two" in mistakes(tmp_path, f"{head}\n0.1, 1e-6\n", yd.read_spectrum)
+@pytest.mark.parametrize(
+    ("head", "row", "note"),
+    [
+        (
+            "distance [m], alignment [mm]",
+            "{x}, 0.005",
+            "the largest alignment is only 0.005 mm: if the values are in m, write alignment [m] in the head",
+        ),
+        ("distance [m], alignment [mm], cross_level [mrad]", "{x}, 5, 0.003", "write cross_level [rad] in the head"),
+        ("distance [m], alignment [m]", "{x}, 5e-6", "the largest alignment is only 5e-06 m: is the unit right?"),
+        ("distance [m], alignment [mm], gauge [mm]", "{x}, 5, 1.435", "write gauge [m] in the head"),
+        ("distance [mm], alignment [mm]", "{x}, 5", "the step of the distance is only 0.25 mm: if the values are in m"),
+    ],
+)
+def test_values_of_a_larger_unit_are_noted(tmp_path, head, row, note):
+    found = track(tmp_path, head, *(row.format(x=k / 4) for k in range(9)))
+    assert note in found.notes[-1]
+    assert not any("only" in x or "unit" in x for x in track(tmp_path, *PLAIN).notes)
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        (
+            ("distance [m];alignment [mm]", "0;1,5", "0.25;2", "0.5;3"),
+            ":2:3: error: alignment: '1,5' has a comma, other",
+        ),
+        (
+            ("distance [m];alignment [mm]", "0;1,500", "1;2,000", "2;3"),
+            "'1,500' may be 1.500 or 1500: write the decimal",
+        ),
+        (("distance [m]\talignment [mm]", "0\t1,234,5", "1\t2", "2\t3"), ":2:3: error: alignment: '1,234,5' is not a"),
+        (
+            ("distance [m], alignment [mm]", "0,0,1,5", "0,25,2,0"),
+            ":2:1: error: there are 4 values, expected 2 separated by "
+            "commas: distance, alignment; with decimal commas, separate columns by semicolons",
+        ),
+        (("distance [m]\talignment [mm]", "0, 1", "1, 2"), "there are 1 values, expected 2 separated by tabs"),
+        (("distance [m] alignment [mm]", "0 1", "1 2"), ":1:1: error: 'distance [m] alignment [mm]' is not one head"),
+        (("distance (m), alignment [mm]", *PLAIN[1:]), "is not known here; did you mean distance [m]?"),
+        (
+            ("distance [m], alignment [mm]", "km, mm", *PLAIN[1:]),
+            ":2:1: error: distance: the unit here is km, in the head",
+        ),
+        (("distance [m], alignment", *PLAIN[1:]), ":1:15: error: alignment: has no unit: write alignment [mm]"),
+        (
+            ("distance [m], alignment [mm], cross level [mm]", "0,1,1"),
+            "cross level: is not known here; did you mean cross_l",
+        ),
+        (
+            ("distance [m], alignment_left [mm]", "0,1"),
+            "alignment_left: is not known here; did you mean alignment [mm]?",
+        ),
+        (
+            ("distance [m], alignment [mm]", "12+34.5, 1", "1, 2", "2, 3"),
+            "'12+34.5' is not kilometres, + and three digits",
+        ),
+        (
+            ("distance [km+m], alignment [mm]", "12.5, 1", "1+001, 2"),
+            ":2:1: error: distance: '12.5' is not km+m, such as 12+",
+        ),
+        (("distance [m], alignment [km+m]", "0, 1", "1, 2"), "alignment: '+m' is not part of a unit; expected mm"),
+        (("distance [m], alignment []", "0, 1", "1, 2"), "alignment: [] is a plain number, expected mm"),
+        (("distance [m], alignment [mm]", "0, 1_0", "1, 2", "2, 3"), ":2:4: error: alignment: '1_0' is not a number"),
+        (("distance [m], alignment [mm]", "0, \u0661", "1, 2", "2, 3"), "is not a number"),
+        (
+            ("distance [m], alignment [mm]", "0, nan", "1, inf", "2, 0x1p3"),
+            ":4:4: error: alignment: '0x1p3' is not a number",
+        ),
+        (("distance [m], alignment [mm]", "0, 1e400", "1, 2", "2, 3"), "'1e400' is too large to compute with"),
+        (("distance [m], alignment [Gm]", "0, 1e305", "1, 2", "2, 3"), "'1e305' is too large to compute with"),
+        (("distance [m], alignment [mm]", "0, 1e-400", "1, 2", "2, 3"), "'1e-400' is too small to compute with"),
+        (
+            ("distance [m], alignment [mm]", "0, " + "9" * 100_000, "1, 2", "2, 3"),
+            "(100000 characters)' is too large to",
+        ),
+        (("distance [m], alignment [((((((((((mm^9)^9)^9)^9)^9)^9)^9)^9)^9)^9)]", "0, 1"), "has more than 9 brackets"),
+        (("distance [m], alignment [(((((((mm^9)^9)^9)^9)^9)^9)^9)^9]", "0, 1"), "too large or too small a unit"),
+    ],
+)
+def test_what_to_change_in_a_track(tmp_path, lines, message):
+    assert message in mistakes(tmp_path, "\n".join(lines))

@@ -142,7 +142,7 @@ def test_number_of_axes():
     assert "none" in mistakes()["axes"]
     assert "at most 3" in mistakes(a=[1, 2], b=[0.7, 0.8], b_1=[1, 2], b_2=[1, 2])["axes"]
     with pytest.raises(yd.ProblemError, match="v: is given twice"):
-        request(yd.table1(), "critical", [("v", "70:80:3"), ("v", "70:80:4")], None)
+        request(yd.table1(), "critical", [("v", "70 m/s:80 m/s:3"), ("v", "70 m/s:80 m/s:4")], None)
     with pytest.raises(yd.ProblemError, match="lambda: is given twice"):
         asked(**{"lambda": [0.1, 0.2], "lambda_": [0.1, 0.2]})
 
@@ -191,13 +191,15 @@ def test_computed_parameters_stay_in_their_range():
 
 
 def test_a_grid_that_is_too_large_is_refused_with_its_size(monkeypatch):
-    found = mistakes(of="stable", C_s="1:1e6:10000", v="1:100:10000", lambda_="0:1:1000")
+    found = mistakes(of="stable", C_s="1:1e6:10000", v="1 m/s:100 m/s:10000", lambda_="0:1:1000")
     assert "10000 C_s × 10000 v × 1000 lambda = 1e+11 points" in found[""]
     assert "1.6e+03 GB" in found[""]
     assert "in parts" in found[""]
     monkeypatch.setattr("yawdesign.study.request.memory", lambda: 1000 * 16)
-    assert asked(of="stable", C_s="1:1e6:100", v="1:100:10").size == 1000
-    assert "parts of at most 99 values" in mistakes(of="stable", C_s="1:1e6:101", v="1:100:10")[""].replace("100", "99")
+    assert asked(of="stable", C_s="1:1e6:100", v="1 m/s:100 m/s:10").size == 1000
+    assert "parts of at most 99 values" in mistakes(of="stable", C_s="1:1e6:101", v="1 m/s:100 m/s:10")[""].replace(
+        "100", "99"
+    )
 
 
 def test_margin_is_the_objective_of_the_problem():

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import dataclasses
+import sys
+import warnings
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
+from pathlib import Path
 from typing import Literal, Self
+
+from .characters import visible
 
 _WIDEST_LINE = 160  # characters of a source line that a message repeats
 _SYNONYMS = {
@@ -48,7 +54,7 @@ class Diagnostic:
     def render(self) -> str:
         """Return the message as shown to a person: place, text, source line and underline."""
         place = ":".join(str(part) for part in (self.path, self.line, self.column) if part not in ("", None))
-        head = ": ".join(part for part in (place, self.severity, self.key, self.message) if part)
+        head = visible(": ".join(part for part in (place, self.severity, self.key, self.message) if part))
         return f"{head}\n{self._underlined()}" if self.line and self.source_line.strip() else head
 
     def _underlined(self) -> str:
@@ -82,6 +88,19 @@ class ProblemError(ValueError):
     def under(self, key: str) -> Self:
         """Return the same mistakes, named as found under `key`."""
         return type(self)(replace(d, key=".".join(part for part in (key, d.key) if part)) for d in self.diagnostics)
+
+
+class UnitWarning(UserWarning):
+    """A number without a unit was read in SI where people think in another unit."""
+
+
+def warn_of_unit(text: str) -> None:
+    """Warn of a number without a unit, at the line outside the package that gave it."""
+    inside = str(Path(__file__).parents[1]), dataclasses.__file__, "<string>"  # as a dataclass's __init__ is called
+    frame, level = sys._getframe(), 1
+    while frame.f_back and frame.f_code.co_filename.startswith(inside):
+        frame, level = frame.f_back, level + 1
+    warnings.warn(text, UnitWarning, stacklevel=level)
 
 
 class Mistakes:

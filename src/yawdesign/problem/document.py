@@ -10,7 +10,6 @@ import re
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
-from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.events import (
     AliasEvent,
@@ -23,7 +22,9 @@ from ruamel.yaml.events import (
 )
 from ruamel.yaml.reader import ReaderError
 
+from .characters import is_refused, refusal
 from .diagnostics import Diagnostic, ProblemError
+from .syntax import explained, parser, unified
 
 MOST_BYTES = 256 * 1024
 MOST_NODES = 5_000
@@ -34,11 +35,15 @@ Path = tuple[str | int, ...]
 
 @dataclass(frozen=True)
 class Node:
-    """A piece of the text from character `start` to `end`; `size` counts the nodes in it, aliases expanded."""
+    """A piece of the text from character `start` to `end`.
+
+    `size` counts the nodes in it and `depth` the levels of lists and mappings, aliases expanded.
+    """
 
     start: int
     end: int
     size: int = 1
+    depth: int = 0
 
 
 @dataclass(frozen=True)
@@ -126,12 +131,12 @@ def compose(text: str, path: str) -> Document:
     ProblemError
         If it is no YAML, or too large; lesser mistakes are noted in the document.
     """
-    document = Document(_unified(text), path)
+    document = Document(unified(text), path)
     if len(document.text) > MOST_BYTES:
         raise document.fail(Node(0, 0), f"the text is longer than {MOST_BYTES // 1024} KiB: this is no problem file")
     builder = _Builder(document)
     try:
-        for event in YAML(typ="safe", pure=True).parse(document.text):
+        for event in parser().parse(document.text):
             builder.take(event)
     except ProblemError:
         raise
@@ -139,40 +144,12 @@ def compose(text: str, path: str) -> Document:
         where = Node(int(error.position), int(error.position) + 1)
         raise document.fail(where, "holds a character that a text must not hold; is this a text file?") from None
     except MarkedYAMLError as error:
-        raise document.fail(*_explained(error, document.text)) from None
+        index, message = explained(error, document.text)
+        raise document.fail(Node(index, index + 1), message) from None
     except (YAMLError, ValueError, RecursionError) as error:
         raise document.fail(Node(0, 0), f"is not YAML: {type(error).__name__}") from None
     document.root = builder.root()
     return document
-
-
-def _unified(text: str) -> str:
-    """Return the text without byte order mark and with one kind of line end, so that positions are the editor's."""
-    return text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
-
-
-# What the parser says in its words, what that means, and whether the mistake is where the piece began.
-_SYNTAX = (
-    ("could not find expected ':'", "a key is followed by a colon and a blank", True),
-    ("found unexpected end of stream", "the quote that opens here is not closed", True),
-    ("expected ',' or", "the bracket that opens here is not closed, or a comma is missing in it", True),
-    ("mapping values are not allowed", "no second ': ' may stand here: look at the indentation and at quotes", False),
-    ("expected <block end>", "does not continue what stands above: look at the indentation", False),
-    ("cannot start any token", "this character cannot begin a value: put the value in quotes", False),
-)
-
-
-def _explained(error: MarkedYAMLError, text: str) -> tuple[Node, str]:
-    said = (error.problem or error.context or "cannot be read").strip().replace("\n", " ")
-    known = (row[1:] for row in _SYNTAX if row[0] in said)
-    meaning, from_start = next(known, (said[:120], False))
-    mark = (error.context_mark if from_start else None) or error.problem_mark or error.context_mark
-    index = min(int(mark.index), len(text)) if mark is not None else 0
-    if text[index : index + 1] == "\t":
-        return Node(index, index + 1), "indent with blanks: YAML allows no tab here"
-    if index >= len(text):
-        index = max(0, len(text.rstrip()) - 1)  # show the last line that says something
-    return Node(index, index + 1), f"is not YAML: {meaning}"
 
 
 @dataclass
@@ -204,7 +181,7 @@ class _Builder:
         elif isinstance(event, AliasEvent):
             self._add_alias(event)
         elif isinstance(event, ScalarEvent):
-            self._add(event, Scalar(*_span(event), text=event.value, plain=event.style is None))
+            self._add(event, Scalar(*_span(event), text=self._checked(event), plain=event.style is None))
         elif isinstance(event, (SequenceStartEvent, MappingStartEvent)):
             self._go_in(event)
         elif isinstance(event, (SequenceEndEvent, MappingEndEvent)):
@@ -214,19 +191,32 @@ class _Builder:
         if self.open[0].children:
             raise self.document.fail(Node(*_span(event)), "a file holds one problem: a second document starts here")
 
+    def _checked(self, event: Any) -> str:
+        """Return the text of a scalar; note characters that it must not hold, and leave them out."""
+        lines = event.value.replace("\n", " ")  # what is of one line is for those to say who use it
+        why = refusal(lines)
+        if why is None:
+            return str(event.value)
+        self.document.note(Node(*_span(event)), why, ".".join(self._around()))
+        return "".join(char for char in event.value if char == "\n" or not is_refused(char))
+
     def _go_in(self, event: Any) -> None:
         self.open.append(_Open(event))
-        if len(self.open) > MOST_DEPTH:
-            raise self.document.fail(Node(*_span(event)), f"is nested deeper than {MOST_DEPTH} levels")
+        self._bound_depth(Node(*_span(event)))
+
+    def _bound_depth(self, node: Node) -> None:
+        if len(self.open) + node.depth > MOST_DEPTH:
+            raise self.document.fail(node, f"is nested deeper than {MOST_DEPTH} levels")
 
     def _come_out(self, end: Any) -> None:
         inner = self.open.pop()
         size = 1 + sum(child.size for child in inner.children)
-        start, stop = inner.event.start_mark.index, end.end_mark.index
+        depth = 1 + max((child.depth for child in inner.children), default=0)
+        place = inner.event.start_mark.index, end.end_mark.index, size, depth
         if isinstance(end, SequenceEndEvent):
-            self._add(inner.event, Sequence(start, stop, size, tuple(inner.children)))
+            self._add(inner.event, Sequence(*place, tuple(inner.children)))
         else:
-            self._add(inner.event, self._mapping(Mapping(start, stop, size), inner.children))
+            self._add(inner.event, self._mapping(Mapping(*place), inner.children))
 
     def _mapping(self, mapping: Mapping, children: list[Node]) -> Mapping:
         for key, value in zip(children[::2], children[1::2], strict=True):
@@ -247,8 +237,16 @@ class _Builder:
 
     def _dotted(self, key: Scalar) -> str:
         """Return the dotted name of a key of the mapping that has just ended."""
-        around = [each.children[-1] for each in self.open if len(each.children) % 2]
-        return ".".join(node.text[:60] for node in (*around, key) if isinstance(node, Scalar))
+        return ".".join((*self._around(), key.text[:60]))
+
+    def _around(self) -> list[str]:
+        """Return the keys whose values are being read."""
+        keys = [
+            each.children[-1]
+            for each in self.open
+            if isinstance(each.event, MappingStartEvent) and len(each.children) % 2
+        ]
+        return [node.text[:60] for node in keys if isinstance(node, Scalar)]
 
     def _add(self, event: Any, node: Node) -> None:
         self._count(node, 1)
@@ -264,6 +262,7 @@ class _Builder:
             raise self.document.fail(place, f"*{event.anchor[:40]} names nothing that is complete by here")
         node = replace(self.anchors[event.anchor], start=place.start, end=place.end)
         self._count(node, node.size)
+        self._bound_depth(node)
         self.open[-1].children.append(node)
 
     def _count(self, node: Node, more: int) -> None:

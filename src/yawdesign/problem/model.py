@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
+from numbers import Real
 from typing import Any, Literal, Self, get_args
 
 from .arguments import named
@@ -48,7 +49,7 @@ class Problem:
     def __post_init__(self) -> None:
         mistakes = Mistakes()
         with mistakes.under("title"):
-            as_text(self.title)
+            object.__setattr__(self, "title", as_text(self.title))
         with mistakes.under("equations"):
             as_choice(self.equations, EQUATIONS)
         for name, kind in (("bogie", Bogie), ("curve", Curve | None), ("design", Design)):
@@ -56,7 +57,7 @@ class Problem:
                 _instance(getattr(self, name), kind)
         if not isinstance(self.speed, SpeedRange):
             with mistakes.under("speed"):
-                object.__setattr__(self, "speed", SPEED.check(self.speed))
+                object.__setattr__(self, "speed", SPEED.accept(self.speed))
         mistakes.report()
         self._fill_design()
 
@@ -109,6 +110,9 @@ class Problem:
                     raise ProblemError(NO_MOTOR if key in MOTOR_KEYS else unknown_key(key, allowed))
         with mistakes.under("bogie"):
             _instance(changes.get("bogie", self.bogie), Bogie)
+        with mistakes.under("speed"):
+            if isinstance(speed := changes.get("speed"), Real):  # a speed that was computed is hardly whole
+                changes["speed"] = SPEED.accept(speed, doubtful=SPEED.check(speed).exact.denominator == 1)
         mistakes.report()
         mine = {name: value for name, value in changes.items() if name in own}
         bogies = {field_name(keys[name]): value for name, value in changes.items() if name not in own}

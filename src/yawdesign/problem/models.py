@@ -40,7 +40,8 @@ def _leaf(check: Callable[..., Any], schema: dict[str, Any]) -> Any:
 
 
 # A number with grouped digits and perhaps a power of ten; the unit is looked at by `check`.
-_QUANTITY = r"^\s*[-+]?(\d[\d _\u2009\u202f\u00a0]*(\.[\d _\u2009\u202f\u00a0]*)?|\.\d+)([eE][-+]?\d+)?\s*{unit}$"
+_TENS = r"([eE][-+]?\d+|\s*[×·⋅*x]\s*10((\^|\*\*)[-+\u2212]?\d+|[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))?"
+_QUANTITY = r"^\s*[-+]?(\d[\d _\u2009\u202f\u00a0]*(\.[\d _\u2009\u202f\u00a0]*)?|\.\d+){tens}\s*{unit}$"
 
 
 def _quantity_schema(row: Parameter) -> dict[str, Any]:
@@ -49,7 +50,7 @@ def _quantity_schema(row: Parameter) -> dict[str, Any]:
     hover = f"{row.meaning[:1].upper()}{row.meaning[1:]}, ${row.symbol}$ [{row.unit}]{si}. "
     hover += f"Accepted: {row.range_text(row.hard)}. Usual: {row.range_text(row.usual, row.unit)}."
     number = {"type": "number", "minimum": row.hard[0], "maximum": row.hard[1]}
-    pattern = _QUANTITY.format(unit=unit_pattern(row.unit))
+    pattern = _QUANTITY.format(tens=_TENS, unit=unit_pattern(row.unit))
     text = {"type": "string", "pattern": pattern, "description": kind_of(row.unit)}
     return {"description": hover, "anyOf": [number, text], "examples": [row.example]}
 

@@ -6,7 +6,7 @@ import math
 import re
 from fractions import Fraction
 
-from .units import UnitError, kind_of, parse_unit, shortened
+from .units import LOWERED, MOST_CHARACTERS, RAISED, UnitError, kind_of, parse_unit, shortened
 from .written import Written, exact
 
 _GAP = r"[ _\u2009\u202f\u00a0]"
@@ -14,11 +14,12 @@ _NUMBER = re.compile(
     rf"""\s*(?P<number>[+\-\u2212]?
          (?:(?P<whole>[0-9]{{1,3}}(?:{_GAP}[0-9]{{3}})+(?![0-9])|[0-9]+)
             (?:\.(?P<part>(?:[0-9]{{3}}{_GAP})*(?!1\s*/)[0-9]{{1,3}}(?![0-9])|[0-9]*))?
-          |\.(?P<bare>[0-9]+))
-         (?:[eE][+-]?[0-9]+)?)""",
+          |\.(?P<bare>[0-9]+)))
+         (?:[eE](?P<tens>[+-]?[0-9]+)
+          |\s*[×·⋅*x]\s*10(?:(?:\^|\*\*)(?P<power>[+\-\u2212]?[0-9]+)|(?P<raised>{RAISED})))?""",
     re.VERBOSE,
 )
-_MOST_DIGITS, _MOST_TENS, _LONGEST_TEXT = 60, 400, 200
+_MOST_DIGITS, _MOST_TENS = 60, 400
 
 
 def split_quantity(text: str) -> tuple[Fraction, str]:
@@ -29,24 +30,27 @@ def split_quantity(text: str) -> tuple[Fraction, str]:
     >>> split_quantity("1 046 770 N s/m")
     (Fraction(1046770, 1), 'N s/m')
     """
-    match = _NUMBER.match(text[:_LONGEST_TEXT])
+    match = _NUMBER.match(text[:MOST_CHARACTERS])
     if match is None:
         raise UnitError(f"{shortened(text.strip())!r} is not a number with a unit, such as 626.48 kN/m")
-    _check_number(text, match)
+    tens = (match["tens"] or match["power"] or match["raised"] or "0").translate(LOWERED)
+    _check_number(text, match, tens)
     digits = re.sub(_GAP, "", match["number"]).replace("\u2212", "-")
-    return Fraction(digits), text[match.end() :].strip()
+    return Fraction(f"{digits}e{tens}"), text[match.end() :].strip()
 
 
-def _check_number(text: str, match: re.Match[str]) -> None:
+def _check_number(text: str, match: re.Match[str], tens: str) -> None:
     rest = text[match.end() :]
-    if len(text) > _LONGEST_TEXT or sum(char.isdigit() for char in match["number"]) > _MOST_DIGITS:
+    if len(text) > MOST_CHARACTERS or sum(char.isdigit() for char in match["number"]) > _MOST_DIGITS:
         raise UnitError(f"{shortened(text)} is too long for a number with a unit")
-    if rest.startswith(","):
-        raise UnitError(f"{shortened(text)} has a comma: write the decimal point as '.', group digits with blanks")
+    if rest.startswith((",", "'", "’")):
+        sign = "a comma" if rest[0] == "," else "an apostrophe"
+        raise UnitError(f"{shortened(text)} has {sign}: write the decimal point as '.', group digits with blanks")
+    if re.match(rf"\^|\*\*|{RAISED}", rest):
+        raise UnitError(f"{shortened(text)} is not one number: a power of ten is written 1e6 or 1×10^6")
     if re.match(rf"{_GAP}?[0-9.](?!\s*/)", rest):
         raise UnitError(f"{shortened(text)} is not one number: digits are grouped in threes, as in 1 046 770.5")
-    exponent = re.search(r"[eE]([+-]?[0-9]+)$", match["number"])
-    if exponent and abs(int(exponent[1])) > _MOST_TENS:
+    if abs(int(tens)) > _MOST_TENS:
         raise UnitError(f"{shortened(text)} is too large or too small to compute with")
 
 

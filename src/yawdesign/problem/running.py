@@ -13,6 +13,7 @@ from .written import Written, exact
 Load = Literal["axle", "wheel"]
 LOADS: tuple[str, ...] = get_args(Load)
 STEPS = (2, 1001)
+MOST_ACCELERATION = 4.0  # [m/s^2], across the curve; tilting trains reach 3
 
 SPEED = Parameter(
     key="speed",
@@ -66,9 +67,10 @@ class Curve:
     load: Load = "axle"
 
     def __post_init__(self) -> None:
-        mistakes = Mistakes()
+        mistakes, given = Mistakes(), self.V_r
         with mistakes.under("curve"):
             check_fields(self)
+            CURVE["V_r"].accept(given, doubtful=self.V_r**2 / self.R > MOST_ACCELERATION)
         with mistakes.under("curve.load"):
             as_choice(self.load, LOADS)
         mistakes.report()
@@ -95,7 +97,7 @@ class SpeedRange:
     steps: int = 11
 
     def __post_init__(self) -> None:
-        mistakes = Mistakes()
+        mistakes, given = Mistakes(), (self.min, self.max)
         with mistakes.under("speed"):
             low, high = check_ends(self.min, self.max, SPEED)
             object.__setattr__(self, "min", low)
@@ -103,6 +105,8 @@ class SpeedRange:
         with mistakes.under("speed.steps"):
             object.__setattr__(self, "steps", as_count(self.steps, *STEPS))
         mistakes.report()
+        for end in given:
+            SPEED.accept(end)
 
     @property
     def values(self) -> tuple[float, ...]:

@@ -8,12 +8,15 @@ from numbers import Real
 from types import MappingProxyType
 from typing import Any, TypeVar, cast
 
-from .diagnostics import Mistakes, ProblemError, suggestion
+from .characters import refusal
+from .diagnostics import Mistakes, ProblemError, suggestion, warn_of_unit
 from .quantities import format_number, format_quantity, parse_quantity, split_quantity
 from .units import UnitError, kind_of, parse_unit, si_unit
 from .written import Written, exact
 
 T = TypeVar("T")
+LONGEST_TEXT = 1000
+MOST_BITS = 4000  # of an exact number: a double with a unit of any size has fewer
 Range = tuple[float, float]
 
 
@@ -77,12 +80,38 @@ class Parameter:
             raise ProblemError(f"{_shown(value)} is outside {self.range_text(self.hard, _unit_of(value))}")
         return number
 
+    def accept(self, value: object, *, doubtful: bool = False) -> Written:
+        """Return a value as `check` does; warn where a bare number may have been meant in km/h.
+
+        Numbers in Python are SI: only a text without a unit and what is above the usual range are doubted, and what the
+        caller finds `doubtful`.
+        """
+        number = self.check(value)
+        if self._is_bare(value) and (isinstance(value, str) or doubtful or number > self.usual[1]):
+            warn_of_unit(f"{self.key}: {self._read_as(value)}")
+        return number
+
     def doubt(self, value: object) -> str | None:
-        """Return why an accepted value is unusual, or None."""
-        if self.usual[0] <= self.check(value) <= self.usual[1]:
+        """Return why an accepted value is unusual or may have been meant in another unit, or None."""
+        if self._is_bare(value):
+            return self._read_as(value)
+        if self._is_usual(self.check(value)):
             return None
         usual = self.range_text(self.usual, _unit_of(value))
         return f"{_shown(value)} is unusual, {usual} is common: are value and unit right?"
+
+    def _is_usual(self, number: float) -> bool:
+        return self.usual[0] <= number <= self.usual[1]
+
+    def _is_bare(self, value: object) -> bool:
+        """Return whether a value has no unit although people do not think of it in SI: a speed is in km/h."""
+        return self.unit == "km/h" and not isinstance(value, Written) and not _unit_of(value)
+
+    def _read_as(self, value: object) -> str:
+        number, bare = self.check(value), _shown(value)
+        usual = "" if self._is_usual(number) else f"; {self.range_text(self.usual, self.unit)} is common"
+        shown = f"{bare} is read as {bare} {self.si}, which is {format_quantity(number, self.unit)}{usual}"
+        return f"{shown}: write {bare} {self.unit}, or {bare} {self.si} if that is meant"
 
     def range_text(self, ends: Range, unit: str = "") -> str:
         """Return a range as a text in a unit, SI if none is given."""
@@ -144,9 +173,12 @@ def as_quantity(value: object, unit: str, si: str = "") -> Written:
     if isinstance(value, bool) or not isinstance(value, Real):
         raise ProblemError(f"{_shown(value)} is not a number, expected {kind_of(unit)} in {si or si_unit(unit)}")
     try:
-        return Written(value if isinstance(value, Written) else exact(value))  # type: ignore[arg-type]
+        number = Written(value if isinstance(value, Written) else exact(value))  # type: ignore[arg-type]
     except (ValueError, OverflowError):
         raise ProblemError(f"{_shown(value)} is not a finite number") from None
+    if max(number.exact.numerator.bit_length(), number.exact.denominator.bit_length()) > MOST_BITS:
+        raise ProblemError(f"{_shown(value)} has too many digits to compute with")
+    return number
 
 
 def as_several(value: Any) -> list[Any]:
@@ -174,10 +206,16 @@ def as_count(value: object, low: int, high: int) -> int:
 
 
 def as_text(value: object) -> str:
-    """Return a text of one line."""
+    """Return a text of one line, without control characters."""
     if not isinstance(value, str):
         raise ProblemError(f"{_shown(value)} is not a text")
-    return value
+    text = value.removesuffix("\n")  # with which a YAML block ends
+    if len(text) > LONGEST_TEXT:
+        raise ProblemError(f"{_shown(value)} is longer than {LONGEST_TEXT} characters")
+    why = refusal(text)
+    if why:
+        raise ProblemError(why)
+    return text
 
 
 def check_fields(instance: Any) -> None:
@@ -205,7 +243,10 @@ def _shown(value: object) -> str:
         return "no value"
     if isinstance(value, bool):
         return str(value).lower()
-    text = value.strip() if isinstance(value, str) else f"{value!r}"
+    try:
+        text = value.strip() if isinstance(value, str) else f"{value!r}"
+    except ValueError:  # of a number that Python refuses to write out
+        text = "a number of thousands of digits"
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 

@@ -13,6 +13,10 @@ from .diagnostics import ProblemError, nearest
 Dimension = tuple[int, int, int]  # powers of kg, m and s
 
 
+# Bounds of what is computed with: texts come from anywhere.
+MOST_CHARACTERS, MOST_BRACKETS, MOST_BITS, MOST_POWERS = 200, 9, 1000, 1000
+
+
 class UnitError(ProblemError):
     """A text that is no quantity, or a quantity of the wrong dimension."""
 
@@ -24,15 +28,25 @@ def shortened(text: str) -> str:
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit: its size in SI and its dimension as powers of kg, m and s."""
+    """A unit: its size in SI, its dimension as powers of kg, m and s, and the power of its angles.
+
+    Angles have no dimension; their power tells what is counted per radian from what is counted per turn.
+    """
 
     factor: Fraction
     dimension: Dimension = (0, 0, 0)
+    angle: int = 0
 
     def times(self, other: Unit, power: int = 1) -> Unit:
         """Return this unit times `other` to a whole `power`."""
         kg, m, s = (one + power * two for one, two in zip(self.dimension, other.dimension, strict=True))
-        return Unit(self.factor * other.factor**power, (kg, m, s))
+        return Unit(self.factor * other.factor**power, (kg, m, s), self.angle + power * other.angle)
+
+    @property
+    def bounded(self) -> bool:
+        """Whether size and powers are small enough to go on with."""
+        bits = max(self.factor.numerator.bit_length(), self.factor.denominator.bit_length())
+        return bits <= MOST_BITS and max(map(abs, (*self.dimension, self.angle))) <= MOST_POWERS
 
 
 _ONE = Unit(Fraction(1))
@@ -46,11 +60,12 @@ _PREFIXED = {
     "J": Unit(Fraction(1), (1, 2, -2)),
     "W": Unit(Fraction(1), (1, 2, -3)),
     "Pa": Unit(Fraction(1), (1, -1, -2)),
-    "rad": _ONE,
+    "rad": Unit(Fraction(1), angle=1),
 }
+_POUND, _INCH, _GRAVITY = Fraction("0.45359237"), Fraction("0.0254"), Fraction("9.80665")  # by definition
 _UNITS = {
     **{
-        prefix + name: Unit(unit.factor * Fraction(10) ** tens, unit.dimension)
+        prefix + name: Unit(unit.factor * Fraction(10) ** tens, unit.dimension, unit.angle)
         for name, unit in _PREFIXED.items()
         for prefix, tens in _PREFIXES.items()
     },
@@ -60,12 +75,17 @@ _UNITS = {
     "min": Unit(Fraction(60), (0, 0, 1)),
     "h": Unit(Fraction(3600), (0, 0, 1)),
     "mph": Unit(Fraction("0.44704"), (0, 1, -1)),
-    "deg": Unit(Fraction(math.pi) / 180),
-    "°": Unit(Fraction(math.pi) / 180),
+    "kgf": Unit(_GRAVITY, (1, 1, -2)),
+    "lbf": Unit(_POUND * _GRAVITY, (1, 1, -2)),
+    "lb": Unit(_POUND, (1, 0, 0)),
+    "in": Unit(_INCH, (0, 1, 0)),
+    "ft": Unit(12 * _INCH, (0, 1, 0)),
+    "deg": Unit(Fraction(math.pi) / 180, angle=1),
+    "°": Unit(Fraction(math.pi) / 180, angle=1),
     "%": Unit(Fraction(1, 100)),
     "1": _ONE,
 }
-_SLIPS = {"kmh": "km/h", "kph": "km/h", "kmph": "km/h", "sec": "s", "hr": "h", "Nm": "N m", "Ns": "N s", "kNs": "kN s"}
+_SLIPS = {"kmh": "km/h", "kph": "km/h", "kmph": "km/h", "sec": "s", "hr": "h", "kp": "kgf"}
 _KINDS: dict[Dimension, tuple[str, str]] = {
     (0, 0, 0): ("a plain number", "-"),
     (1, 0, 0): ("a mass", "kg"),
@@ -80,10 +100,13 @@ _KINDS: dict[Dimension, tuple[str, str]] = {
     (1, 0, -1): ("a damping", "N·s/m"),
     (1, 2, -1): ("a yaw damping", "N·s·m/rad"),
 }
-_TOKEN = re.compile(r"\s*(\*\*|\^|[*·⋅×/()]|[+-]?[0-9]+|[^\W\d_]+|[°%])")
-_RAISED = re.compile("[⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+")
-_LOWERED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
-_TIMES = frozenset("*·⋅×")
+_LETTER = r"[^\W\d_]"
+# A full stop is a sign of multiplication between two units that touch it, as in kN.s; elsewhere it belongs to a number.
+_TOKEN = re.compile(rf"\s*(\*\*|\^|[*·⋅×/()]|(?<=[\w)])\.(?={_LETTER}|\()|[+-]?[0-9]+|{_LETTER}+|[°%])")
+_TOUCHING = re.compile(rf"(?<={_LETTER})(?=[+-]?[0-9])")  # m2 is m^2
+RAISED = "[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"
+LOWERED = str.maketrans("⁺⁻\u2212⁰¹²³⁴⁵⁶⁷⁸⁹", "+--0123456789")
+_TIMES = frozenset("*·⋅×.")
 
 
 @lru_cache(maxsize=512)
@@ -97,6 +120,10 @@ def parse_unit(text: str) -> Unit:
     """
     if text.strip() in ("", "-"):
         return _ONE
+    if len(text) > MOST_CHARACTERS:
+        raise UnitError(f"{shortened(text)!r} is too long for a unit")
+    if text.count("(") > MOST_BRACKETS:
+        raise UnitError(f"{shortened(text)!r} has more than {MOST_BRACKETS} brackets")
     tokens = _tokens(text)
     unit = _product(tokens, text)
     if tokens:
@@ -107,7 +134,8 @@ def parse_unit(text: str) -> Unit:
 def _tokens(text: str) -> list[str]:
     """Return the tokens in reverse, so that the next one is popped off the end."""
     found: list[str] = []
-    text = _RAISED.sub(lambda raised: f"^{raised[0].translate(_LOWERED)}", text.rstrip())
+    text = re.sub(RAISED, lambda raised: f"^{raised[0].translate(LOWERED)}", text.rstrip())
+    text = _TOUCHING.sub("^", text)
     position = 0
     while position < len(text):
         match = _TOKEN.match(text, position)
@@ -125,7 +153,7 @@ def _product(tokens: list[str], text: str) -> Unit:
         if divided and sign != "/":
             raise UnitError(f"{shortened(text)!r} can be read in two ways: put what is divided by in brackets, N/(m/s)")
         divided = divided or sign == "/"
-        result = result.times(_power(tokens, text), -1 if sign == "/" else 1)
+        result = _bounded(result.times(_power(tokens, text), -1 if sign == "/" else 1), text)
     return result
 
 
@@ -137,7 +165,13 @@ def _power(tokens: list[str], text: str) -> Unit:
     digits = tokens.pop() if tokens else ""
     if not re.fullmatch(r"[+-]?[0-9]", digits):
         raise UnitError(f"{shortened(text)!r} has a power that is not a small whole number")
-    return _ONE.times(base, int(digits))
+    return _bounded(_ONE.times(base, int(digits)), text)
+
+
+def _bounded(unit: Unit, text: str) -> Unit:
+    if not unit.bounded:
+        raise UnitError(f"{shortened(text)!r} is too large or too small a unit to compute with")
+    return unit
 
 
 def _atom(tokens: list[str], text: str) -> Unit:
@@ -155,8 +189,16 @@ def _atom(tokens: list[str], text: str) -> Unit:
 
 def _meant(name: str) -> str:
     found = _SLIPS.get(name) or next((unit for unit in _UNITS if unit.casefold() == name.casefold()), None)
-    found = found or (nearest(name, _UNITS) if len(name) > 1 else None)
+    found = found or _parted(name[:6]) or (nearest(name, _UNITS) if len(name) > 1 else None)
     return f"; did you mean {found}?" if found else ""
+
+
+def _parted(name: str) -> str | None:
+    """Return the units that a short name consists of with blanks between them, the longest first: ``N mm``."""
+    if name in _UNITS:
+        return name
+    parts = ((name[:k], _parted(name[k:])) for k in range(len(name) - 1, 0, -1) if name[:k] in _UNITS)
+    return next((f"{first} {rest}" for first, rest in parts if rest), None)
 
 
 @cache

@@ -180,7 +180,7 @@ def _axis(problem: Problem, axis: Mapping[str, Any]) -> tuple[str, Parameter, Fl
         if key != "v" and len(problem.speeds) > 1:
             raise ProblemError("is followed at one speed, the problem has a range: problem.replace(speed=...)")
     mistakes.report()
-    row = SPEED if key == "v" else PARAMETERS[key]
+    row = replace(SPEED, key="v") if key == "v" else PARAMETERS[key]
     return key, row, _values(key, row, given)
 
 
@@ -188,7 +188,8 @@ def _values(key: str, row: Parameter, given: Any) -> Float:
     mistakes, values = Mistakes(), []
     for k, value in enumerate(as_several(given)):
         with mistakes.under(f"{key}[{k}]"):
-            values.append(float(row.check(value)))
+            computed = isinstance(value, np.generic)
+            values.append(float(row.check(value.item()) if computed else row.accept(value)))
     mistakes.report()
     steps = np.sign(np.diff(values))
     if len(values) < 2 or not (np.all(steps > 0) or np.all(steps < 0)):

@@ -150,7 +150,7 @@ def _lengths(wavelength: Any) -> Float:
 def one_speed(problem: Problem, speed: Any = None) -> float:
     """Return a speed given as number or text [m/s], or the single one of the problem."""
     if speed is not None:
-        return float(SPEED.check(speed))
+        return float(SPEED.accept(speed))
     if len(problem.speeds) > 1:
         raise ProblemError("is missing: the problem has a range of speeds, say which one, such as '300 km/h'")
     return float(problem.speeds[0])

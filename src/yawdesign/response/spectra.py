@@ -10,6 +10,7 @@ import numpy as np
 from yawdesign.problem import ProblemError
 from yawdesign.problem.arguments import checked
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
+from yawdesign.response.cells import number
 from yawdesign.response.system import Float
 
 Density = Callable[[Float], Float]
@@ -182,22 +183,18 @@ def form_of(text: str) -> Spectrum:
     make, keys = FORMS[form]
     values: dict[str, Any] = {}
     mistakes = Mistakes()
-    for part in filter(None, given.split(",")):
-        key, _, value = (piece.strip() for piece in part.partition("="))
+    pairs = [[piece.strip() for piece in part.split("=", 1)] for part in given.split(",") if part]
+    names = [name for name, *_ in pairs]
+    for k, (key, *value) in enumerate(pairs):
         with mistakes.under(key):
             if key not in keys:
                 raise ProblemError(unknown_key(key, keys))
-            values[key] = _coefficient(value)
+            if key in names[:k]:
+                raise ProblemError("stands twice")
+            values[key] = number("".join(value))
     for key in ("A_a", "A_v") if form == "german" else ("A",):
         with mistakes.under(key):
-            if key not in given:
+            if key not in names:
                 raise ProblemError(f"is missing: write such as {form}:{key}=2e-7")
     mistakes.report()
     return make(**values, name=text)
-
-
-def _coefficient(value: str) -> float:
-    try:
-        return float(value)
-    except ValueError:
-        raise ProblemError(f"{value!r} is not a number") from None

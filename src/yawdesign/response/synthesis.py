@@ -80,7 +80,7 @@ def spectrum_check(
     with mistakes.under("input"):
         as_choice(input, INPUTS)
     with mistakes.under("speed"):
-        v = float(SPEED.check(speed))
+        v = float(SPEED.accept(speed))
     with mistakes.under("length"):
         way = float(as_quantity(length, "m"))
         if not way > 0:

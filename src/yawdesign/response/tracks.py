@@ -2,13 +2,17 @@
 
 from collections.abc import Callable
 from os import PathLike, fspath
+from os.path import exists
 from pathlib import Path
 from typing import Any
 
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import suggestion
-from yawdesign.response.measured import MeasuredTrack, is_spectrum, read_spectrum, read_track
+from yawdesign.problem.units import shortened
+from yawdesign.response.measured import MeasuredTrack, track_of
+from yawdesign.response.sheets import read_sheet
 from yawdesign.response.spectra import FORMS, SPECTRA, Spectrum, form_of
+from yawdesign.response.tabulated import is_spectrum, spectrum_of
 from yawdesign.response.track import Band, Harmonic, RandomTrack, Sinusoid, Smooth
 
 AnyTrack = Smooth | Harmonic | Sinusoid | RandomTrack | MeasuredTrack
@@ -53,9 +57,12 @@ def _of_text(text: str) -> Spectrum | AnyTrack:
         return SPECTRA[text]
     if text.partition(":")[0] in FORMS and ":" in text:
         return form_of(text)
-    if not Path(text).exists() and not Path(text).suffix:
-        raise ProblemError(f"track: {text!r} is not one of {', '.join(NAMES)}, nor a file{suggestion(text, NAMES)}")
-    return read_spectrum(text) if is_spectrum(text) else read_track(text)
+    if not exists(text) and not Path(text).suffix:  # noqa: PTH110 - also of names that are too long
+        raise ProblemError(
+            f"track: {shortened(text)!r} is not one of {', '.join(NAMES)}, nor a file{suggestion(text, NAMES)}"
+        )
+    sheet = read_sheet(text)
+    return spectrum_of(sheet) if is_spectrum(sheet) else track_of(sheet)
 
 
 def shaped(track: str, *, wavelength: str | None, amplitude: str | None) -> str | AnyTrack:

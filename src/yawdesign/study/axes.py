@@ -151,6 +151,8 @@ def read_range(text: str, row: Parameter) -> Float:
         if len(parts) == 4 and ends[0] <= 0:
             raise ProblemError(f"{parts[0]} is not above zero, where a logarithmic range must begin")
     mistakes.report()
+    for end in parts[:2]:
+        row.accept(end)
     return np.geomspace(*ends, count) if len(parts) == 4 else np.linspace(*ends, count)
 
 
@@ -164,13 +166,14 @@ def _numbers(values: object, row: Parameter) -> Float:
         raise ProblemError(f"is {kind}, expected a list of values or a text LOW:HIGH:N")
     if found.dtype.kind in "iuf":
         return found.astype(float)
-    return np.array([row.check(x) for x in cast(Iterable[Any], values)], dtype=float)
+    return np.array([row.accept(x) for x in cast(Iterable[Any], values)], dtype=float)
 
 
 def _check(found: Float, row: Parameter) -> None:
     wrong = ~((found >= row.hard[0]) & (found <= row.hard[1]))
     if wrong.any():
         row.check(float(found[np.argmax(wrong)]))
+    row.accept(float(found.max()))
 
 
 def shape(axes: Sequence[Axis]) -> tuple[int, ...]:

@@ -1,0 +1,46 @@
+"""Characters that no text of a problem may hold, and how they are shown in messages."""
+
+from __future__ import annotations
+
+import unicodedata
+
+_LINE_ENDS = "\n\r\x0b\x0c\x85\u2028\u2029"
+
+
+def refusal(text: str) -> str | None:
+    r"""Return why a text of one line is refused, or None.
+
+    Line ends, control characters and what is no character at all are refused: files, tables and pictures are made
+    from texts, and not all of them can hold these.
+
+    Examples
+    --------
+    >>> refusal("bogie 1"), refusal("a\x07")
+    (None, 'holds the control character U+0007')
+    """
+    wrong = next((char for char in text if is_refused(char)), None)
+    if wrong is None:
+        return None
+    point = f"U+{ord(wrong):04X}"
+    if wrong in _LINE_ENDS:
+        return f"holds a line end, {point}: write it in one line"
+    if unicodedata.category(wrong) == "Cc":
+        return f"holds the control character {point}"
+    return f"holds {point}, which is no character"
+
+
+def is_refused(char: str) -> bool:
+    """Return whether a character is a line end, a control character or none at all."""
+    no_character = ord(char) & 0xFFFE == 0xFFFE or 0xFDD0 <= ord(char) <= 0xFDEF
+    return no_character or unicodedata.category(char) in ("Cc", "Cs", "Zl", "Zp")
+
+
+def visible(text: str) -> str:
+    r"""Return a text with every refused character as its escape sequence, so that a terminal shows it.
+
+    Examples
+    --------
+    >>> visible("a\x07")
+    'a\\x07'
+    """
+    return "".join(char.encode("unicode_escape").decode() if is_refused(char) else char for char in text)
