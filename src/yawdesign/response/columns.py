@@ -3,13 +3,13 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike, fspath
-from pathlib import Path
 
 import numpy as np
 
 from yawdesign.problem.diagnostics import Diagnostic, ProblemError, unknown_key
 from yawdesign.problem.units import kind_of, parse_unit
 from yawdesign.response.system import Float
+from yawdesign.response.text_file import text_of
 
 MOST_SHOWN = 20
 
@@ -109,14 +109,9 @@ Fields = list[tuple[int, str]]  # where each begins, and what it says
 
 
 def _rows(name: str) -> list[tuple[int, Fields]]:
-    try:
-        text = Path(name).read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError:
-        raise ProblemError([Diagnostic(path=name, message="is not UTF-8 text: save the file as UTF-8")]) from None
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise ProblemError([Diagnostic(path=name, message=f"cannot be read: {reason}")]) from None
-    lines = [(n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"]
+    lines = [
+        (n, line) for n, line in enumerate(text_of(name).splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
+    ]
     separator = ";" if lines and ";" in lines[0][1] else ","
     return [(n, _split(line, separator)) for n, line in lines]
 

@@ -24,6 +24,7 @@ WAVELENGTH = Parameter(
     usual=(1.0, 200.0),
     source="20",
 )
+MOST_WAVELENGTHS = 100_000  # about 1 GB
 BLOCK = 1000  # frequencies solved at once
 EXACT = 1e-9  # largest relative difference of the two ways
 
@@ -143,6 +144,8 @@ def frequency_response(
 def _lengths(wavelength: Any) -> Float:
     if np.ndim(wavelength) > 1 or np.size(wavelength) == 0:
         raise ProblemError("must be one wavelength or a list of them")
+    if np.size(wavelength) > MOST_WAVELENGTHS:
+        raise ProblemError(f"{np.size(wavelength)} values are too many: at most {MOST_WAVELENGTHS} at a time")
     values = [wavelength] if np.ndim(wavelength) == 0 else list(wavelength)
     return np.array([float(WAVELENGTH.check(x.item() if hasattr(x, "item") else x)) for x in values])
 

@@ -1,7 +1,7 @@
 """Measured tracks and spectra from files."""
 
 from dataclasses import dataclass
-from os import PathLike
+from os import PathLike, fspath
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from yawdesign.problem.units import parse_unit
 from yawdesign.response.columns import Column, Table, read_columns, report
 from yawdesign.response.spectra import Spectrum, Tabulated
 from yawdesign.response.system import Float, System
+from yawdesign.response.text_file import text_of
 from yawdesign.response.track import Clock
 
 MEASURED = {
@@ -208,9 +209,9 @@ def _densities(table: Table, first: str) -> list[Diagnostic]:
 def is_spectrum(path: str | PathLike[str]) -> str:
     """Return the name of the first column of a file if it is that of a spectrum, else an empty text."""
     try:
-        with open(path, encoding="utf-8-sig") as file:  # noqa: PTH123 - any name must do
-            head = next((line for line in file if line.strip() and line.lstrip()[0] != "#"), "")
-    except (OSError, ValueError):
+        lines = text_of(fspath(path)).splitlines()
+    except ProblemError:
         return ""
+    head = next((line for line in lines if line.strip() and line.lstrip()[0] != "#"), "")
     name = head.split("[")[0].strip()
     return name if name in ("wavenumber", "spatial_frequency") else ""

@@ -9,6 +9,7 @@ from yawdesign.problem import ProblemError
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_quantity
+from yawdesign.response.march import MOST_STEPS
 from yawdesign.response.system import INPUTS, Float
 from yawdesign.response.track import Clock, RandomTrack, synthesise
 from yawdesign.response.tracks import as_track
@@ -81,6 +82,8 @@ def spectrum_check(
     v, way = float(SPEED.check(speed)), float(as_quantity(length, "m"))
     low, high = road.band.hertz(v)
     steps = 2 * int(np.ceil(way / v * high * PER_WAVE / 2))
+    if steps > MOST_STEPS:
+        raise ProblemError(f"length: {way:g} m take {steps} points, at most {MOST_STEPS} are made")
     clock = Clock(way / v / steps, steps)
     sample = synthesise(road.lines_at(v, way / v, 0.0), clock)[:-1, INPUTS.index(input)]
     f, S = welch(sample, fs=steps / way, nperseg=steps // SEGMENTS, detrend=False)
