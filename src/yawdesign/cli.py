@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from yawdesign.output.streams import ANSWER, discard, open_streams, tell, write_answer
+
 if TYPE_CHECKING:
     from yawdesign.problem import Problem
 
@@ -36,16 +38,19 @@ def _mistakes_shown() -> Iterator[None]:
     try:
         yield
     except ProblemError as error:
-        _tell(str(error))
+        tell(str(error))
         raise typer.Exit(BAD_INPUT) from None
     except OSError as error:
-        _tell(f"error: {error.strerror or error}" + (f": {error.filename}" if error.filename else ""))
+        tell(f"error: {_reason(error)}")
         raise typer.Exit(BAD_INPUT) from None
 
 
-def _tell(text: str) -> None:
-    """Write a message to standard error."""
-    sys.stderr.write(text + "\n")
+def _reason(error: Exception) -> str:
+    if not isinstance(error, OSError):
+        return f"{type(error).__name__}: {error}"
+    if error.filename == ANSWER:
+        return f"{ANSWER} could not be written: {error.strerror}"
+    return (error.strerror or str(error)) + (f": {error.filename}" if error.filename else "")
 
 
 def _read(path: str) -> "Problem":
@@ -56,17 +61,17 @@ def _read(path: str) -> "Problem":
     if problem is None:
         raise ProblemError(diagnostics)
     for diagnostic in diagnostics:
-        _tell(diagnostic.render())
+        tell(diagnostic.render())
     return problem
 
 
 def _show(result: Any, as_json: bool, tables: str, home: str = "yawdesign.output.tables") -> None:
-    from yawdesign.output.tables import show
+    from yawdesign.output.tables import rendered
 
     if as_json:
-        typer.echo(json.dumps(result.to_dict(), indent=2, allow_nan=False))
+        write_answer(json.dumps(result.to_dict(), indent=2, allow_nan=False) + "\n")
     else:
-        show(getattr(import_module(home), tables)(result))
+        write_answer(rendered(getattr(import_module(home), tables)(result)))
 
 
 def _code(checked: bool, feasible: bool) -> int:
@@ -141,45 +146,46 @@ def sweep(
         problem = _read(file)
         from yawdesign.output.study_files import Outputs
         from yawdesign.study.chunks import workers
-        from yawdesign.study.sweep import IncompleteSweepError, swept
+        from yawdesign.study.request import request
+        from yawdesign.study.sweep import IncompleteSweepError, answered
 
-        outputs = Outputs.checked(file, over, csv=csv, npz=npz, plot=plot, resume=resume)
-        axes = [(name, values) for name, _, values in (text.partition("=") for text in over)]
+        asked = request(problem, of, [(name, values) for name, _, values in (x.partition("=") for x in over)], hold)
+        outputs = Outputs.checked(file, asked.axes, csv=csv, npz=npz, plot=plot, resume=resume)
         try:
             with _progress() as progress, workers(jobs, dask) as executor, _warnings_told():
-                work = {"executor": executor, "resume": resume, "progress": progress}
-                result = swept(problem, of, axes, hold=hold, **work)
+                result = answered(asked, executor=executor, resume=resume, progress=progress)
         except IncompleteSweepError as error:
-            _tell(outputs.rescued(error.result, error.reason))
+            tell(outputs.rescued(error.result, error.reason))
             raise typer.Exit(INTERRUPTED if error.interrupted else SOLVER_FAILED) from None
         try:
             outputs.write(result)
             _show_sweep(result, as_json)
-        except OSError as error:
-            _tell(outputs.rescued(result, f"{error.filename or 'the answer'} could not be written: {error.strerror}"))
-            raise typer.Exit(BAD_INPUT) from None
+        except Exception as error:  # noqa: BLE001 - whatever it is, it may not cost the sweep
+            tell(outputs.rescued(result, _unwritten(error)))
+            raise typer.Exit(BAD_INPUT if isinstance(error, OSError) else SOLVER_FAILED) from None
     raise typer.Exit(_code(not result.unverified.any(), bool(result.good.any())))
 
 
 def _show_sweep(result: Any, as_json: bool) -> None:
     from yawdesign.output import study_tables, tables
 
-    try:
-        if as_json:
-            typer.echo(json.dumps(result.to_dict(), allow_nan=False))
-        else:
-            tables.show(study_tables.sweep_tables(result))
-        sys.stdout.flush()
-    except OSError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what cannot be written is not tried again at the end
-        raise
+    if as_json:
+        write_answer(json.dumps(result.to_dict(), allow_nan=False) + "\n")
+    else:
+        write_answer(tables.rendered(study_tables.sweep_tables(result)))
+
+
+def _unwritten(error: Exception) -> str:
+    if isinstance(error, OSError):
+        return f"{error.filename or ANSWER} could not be written: {error.strerror}"
+    return f"the results could not be shown: {type(error).__name__}: {error}"
 
 
 @contextmanager
 def _warnings_told() -> Iterator[None]:
     """Show warnings as messages."""
     with warnings.catch_warnings():
-        warnings.showwarning = lambda message, *_: _tell(f"warning: {message}")
+        warnings.showwarning = lambda message, *_: tell(f"warning: {message}")
         warnings.simplefilter("always", RuntimeWarning)
         yield
 
@@ -212,16 +218,17 @@ def simulate(
     csv: Annotated[str | None, typer.Option(help="Write the time histories as text.")] = None,
     npz: Annotated[str | None, typer.Option(help="Write the time histories as NumPy arrays.")] = None,
     plot: Annotated[str | None, typer.Option(help="Draw the frame's motion to a .png, .pdf or .svg file.")] = None,
-    response: Annotated[str, typer.Option(help="What --plot draws.")] = "y_b",
+    response: Annotated[str | None, typer.Option(help="What --plot draws; y_b.")] = None,
 ) -> None:
     """Run the bogie over a track: RMS, peaks, whether amplitudes settle, and what its yaw damper has to do."""
-    from yawdesign.output import histories
-    from yawdesign.output.plots import PICTURES, write_picture
-
     with _mistakes_shown():
-        files = [(csv, (".csv",)), (npz, (".npz",)), (plot, PICTURES)]
-        to_csv, to_npz, to_plot = (path and histories.checked_ending(path, endings) for path, endings in files)
+        from yawdesign.output import histories, plots
+        from yawdesign.output.targets import target
+
+        to_csv, to_npz = (name and target(name, ending) for name, ending in ((csv, (".csv",)), (npz, (".npz",))))
+        to_plot = plot and plots.picture_target(plot)
         problem = _read(file)
+        _check_response(problem, response, plot)
         with _progress() as progress:
             from yawdesign.response.simulate import simulate as run
             from yawdesign.response.tracks import shaped
@@ -240,15 +247,28 @@ def simulate(
                 progress=progress,
             )
         if to_plot:
-            from yawdesign.output.response_plots import simulation
-
-            write_picture(simulation(result, response=response), to_plot)
+            plots.write_picture(plots.plot(result, response=response or "y_b"), to_plot)
         if to_csv:
             histories.write_csv(result, to_csv)
         if to_npz:
             histories.write_npz(result, to_npz)
         _show(result, as_json, "simulation_tables", "yawdesign.output.response_tables")
     raise typer.Exit(_code(result.checked, result.settles))
+
+
+def _check_response(problem: "Problem", response: str | None, plot: str | None) -> None:
+    from yawdesign.problem import ProblemError
+    from yawdesign.problem.table import as_choice
+    from yawdesign.response.simulate import response_names
+
+    if response is None:
+        return
+    if not plot:
+        raise ProblemError("--response: chooses what --plot draws: give --plot too")
+    try:
+        as_choice(response, response_names(problem))
+    except ProblemError as error:
+        raise error.under("--response") from None
 
 
 @app.command()
@@ -258,34 +278,53 @@ def modes(
         str, typer.Option(metavar="NAME=LOW:HIGH:N[:log]", help="Follow the modes, such as 'v=50 km/h:450 km/h:80'.")
     ] = "",
     plot: Annotated[str, typer.Option(metavar="FILE", help="Draw the mode, or with --over the paths.")] = "",
-    of: Annotated[str, typer.Option(help="With --over: root_locus, damping_ratio or frequency.")] = "root_locus",
+    of: Annotated[
+        str, typer.Option(help="What --plot draws with --over: root_locus (default), damping_ratio or frequency.")
+    ] = "",
     animate: Annotated[str, typer.Option(metavar="MODE", help="Which mode is drawn; the slowest if not given.")] = "",
     to: Annotated[str, typer.Option(metavar="FILE", help="Show the mode in motion: a .gif or .svg file.")] = "",
     as_json: AsJson = False,
 ) -> None:
     """Show all modes by name: frequency, damping, what takes part; follow them over speed or any parameter."""
     with _mistakes_shown():
-        from yawdesign.output.histories import checked_ending
-        from yawdesign.output.plots import PICTURES, write_picture
-        from yawdesign.problem import ProblemError
+        from yawdesign.output import plots
 
-        to_plot = plot and checked_ending(plot, PICTURES)
+        to_plot = plot and plots.picture_target(plot)
+        to_file = to and plots.picture_target(to, import_module("yawdesign.output.animation").MOVING)
+        _check_modes(over=over, plot=plot, of=of, animate=animate, to=to)
         problem = _read(file)
-        if over and (to or animate):
-            raise ProblemError("--animate and --to show a mode at one place: leave out --over")
         if over:
             result: Any = import_module("yawdesign.response.following").follow_modes(problem, **_axis(over))
         else:
             result = import_module("yawdesign.response.modes").modes(problem)
         if to_plot:
-            from yawdesign.output.plots import plot as draw
-
-            options: dict[str, Any] = {"of": of} if over else {"mode": animate or None}
-            write_picture(draw(result, **options), to_plot)
-        if to:
-            import_module("yawdesign.output.animation").animate(result, to, mode=animate or None)
+            options: dict[str, Any] = {"of": of or "root_locus"} if over else {"mode": animate or None}
+            plots.write_picture(plots.plot(result, **options), to_plot)
+        if to_file:
+            import_module("yawdesign.output.animation").animate(result, to_file, mode=animate or None)
         _show(result, as_json, "followed_tables" if over else "modes_tables", "yawdesign.output.mode_tables")
     raise typer.Exit(_code(result.checked, bool(over) or result.stable))
+
+
+def _check_modes(*, over: str, plot: str, of: str, animate: str, to: str) -> None:
+    """Check that every option has something to act on."""
+    from yawdesign.output.mode_plots import QUANTITIES
+    from yawdesign.problem import ProblemError
+    from yawdesign.problem.diagnostics import Mistakes
+    from yawdesign.problem.table import as_choice
+
+    mistakes = Mistakes()
+    with mistakes.under("--of"):
+        as_choice(of or QUANTITIES[0], QUANTITIES)
+        if of and not (over and plot):
+            raise ProblemError("chooses what --plot draws with --over: give both")
+    with mistakes.under("--animate"):
+        if animate and not (plot or to):
+            raise ProblemError("chooses which mode --plot or --to shows: give one of them")
+    with mistakes.under("--over"):
+        if over and (to or animate):
+            raise ProblemError("--animate and --to show a mode at one place: leave out --over")
+    mistakes.report()
 
 
 def _axis(text: str) -> dict[str, Any]:
@@ -313,7 +352,7 @@ def _progress() -> Iterator[Any]:
     if not console.is_terminal:
         yield lambda text, part: None
         return
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("starting", total=1.0)
         yield lambda text, part: bar.update(task, description=text, completed=part)
@@ -340,7 +379,7 @@ def export(
 
         result = write(problem, to, inputs=inputs, only=only, formats=formats, force=force)
         for note in result.notes:
-            _tell(f"note: {note}")
+            tell(f"note: {note}")
         _show(result, as_json, "export_tables")
 
 
@@ -361,7 +400,7 @@ def new(
         if path.exists() and not force:
             raise ProblemError(f"{file} exists: choose another name, or give --force to replace it")
         write_whole(path, starter(kind).encode())
-    typer.echo(f"wrote {file}; next: yawdesign optimise {file}")
+        write_answer(f"wrote {file}; next: yawdesign optimise {file}\n")
 
 
 @app.command()
@@ -369,7 +408,7 @@ def check(file: ProblemFile) -> None:
     """List every mistake of a problem file, and doubtful values."""
     with _mistakes_shown():
         _read(file)
-        typer.echo(f"{file}: no errors")
+        write_answer(f"{file}: no errors\n")
 
 
 @app.command()
@@ -378,7 +417,7 @@ def schema() -> None:
     from yawdesign.problem import schema as problem_schema
 
     with _mistakes_shown():
-        typer.echo(json.dumps(problem_schema(), indent=2, ensure_ascii=False))
+        write_answer(json.dumps(problem_schema(), indent=2, ensure_ascii=False) + "\n")
 
 
 @app.callback(invoke_without_command=True)
@@ -393,15 +432,18 @@ def _version(
 
 
 def main() -> None:
-    """Run the command line; Ctrl-C ends it without a traceback."""
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="replace")  # a console without µ or · shows ? and goes on
+    """Run the command line; Ctrl-C, or an answer that cannot be written, ends it without a traceback."""
+    open_streams()
+    os.environ["MPLBACKEND"] = "agg"  # pictures are files: no window, whatever a user has set
     try:
         app()
     except KeyboardInterrupt:
-        _tell("interrupted")
+        tell("interrupted")
         sys.exit(INTERRUPTED)
+    except OSError as error:  # of the texts that the library of the command line writes itself, such as --help
+        discard(sys.stdout)
+        tell(f"error: {ANSWER} could not be written: {error.strerror}")
+        sys.exit(BAD_INPUT)
 
 
 if __name__ == "__main__":

@@ -107,6 +107,6 @@ def test_svg_holds_the_shape(modes):
 
 def test_animate_writes_what_the_ending_says(modes, tmp_path):
     assert yd.animate(modes, tmp_path / "a.svg", mode="yaw damper relaxation").read_text().startswith("<svg")
-    with pytest.raises(yd.ProblemError, match=r"as \.gif or \.svg"):
+    with pytest.raises(yd.ProblemError, match=r"must end in \.gif or \.svg"):
         yd.animate(modes, tmp_path / "a.png")
     assert [path.name for path in tmp_path.iterdir()] == ["a.svg"]

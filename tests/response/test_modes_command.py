@@ -57,7 +57,7 @@ def test_pictures(tmp_path):
         (["--over", "C_s=0:2:3:log"], "must begin"),
         (["--over", "C_s=1:2:3", "--to", "x.gif"], "leave out --over"),
         (["--animate", "frame yow", "--to", "x.gif"], "did you mean frame yaw"),
-        (["--to", "x.mp4"], "as .gif or .svg"),
+        (["--to", "x.mp4"], "must end in .gif or .svg"),
         (["--plot", "x.bmp"], "must end in .png or .pdf or .svg"),
         (["--over", "v=20:30:3", "--of", "locus", "--plot", "x.png"], "is not one of"),
     ],

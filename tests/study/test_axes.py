@@ -55,13 +55,14 @@ def test_values_in_any_container():
     ("values", "text"),
     [
         ([], "has no values"),
-        ([80.0], "single value"),
-        (80.0, "single value"),
-        ("300 km/h", "no range"),
+        ("", "no range"),
+        ("300 km/h:", "no range"),
+        ("300 kmh", "km/h"),
         ("1:2:3:linear", "no range"),
         ("80:80:3", "empty range"),
         ("100:80:3", "less than min"),
-        ("1:2:1", "whole number from 2"),
+        ("1:2:0", "whole number from 1"),
+        ("1:2:1", "one value cannot be both 1 and 2: write 1"),
         ("1:2:2.5", "whole number"),
         ("1:2:1e12", "whole number"),
         ("1 kg:2 m/s:3", "mass"),
@@ -76,7 +77,9 @@ def test_values_in_any_container():
         ([True, False], "not a number"),
         ([[70, 80], [90, 100]], "dimensions"),
         ([[70, 80], [90]], "list of lists"),
-        ({70: 80}, "single value"),
+        ({70: 80}, "not a number"),
+        (None, "has no value"),
+        (math.nan, "outside|finite"),
     ],
 )
 def test_wrong_values(values, text):
@@ -134,7 +137,7 @@ def test_names():
 
 
 def test_all_mistakes_at_once():
-    found = mistakes(of="all", v=[80], f_m="3:2:9", fm=[1, 2], K_m=[-1, 2], hold="K_m")
+    found = mistakes(of="all", v=[], f_m="3:2:9", fm=[1, 2], K_m=[-1, 2], hold="K_m")
     assert set(found) == {"of", "axes", "v", "f_m.max", "fm", "K_m", "f_m", "hold"}
 
 

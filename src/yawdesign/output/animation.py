@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING
 
 from yawdesign.output.mode_plots import mode_shape
 from yawdesign.output.plan_view import COLOURS, REST, Body, Corner, bodies, caption, find_mode, half_size, subtitle
-from yawdesign.problem import ProblemError
+from yawdesign.output.plots import own_texts
+from yawdesign.output.targets import target
 from yawdesign.study.writing import write_whole
 
 if TYPE_CHECKING:
     from yawdesign.response.modes import Modes, NamedMode
 
+MOVING = (".gif", ".svg")
 FRAMES, PERIOD = 24, 1.6  # pictures and seconds of a cycle
 SCALE = 100.0  # units of the SVG in a metre
 
@@ -56,13 +58,12 @@ def animate(result: "Modes", to: str | Path, *, mode: str | None = None) -> Path
     Raises
     ------
     ProblemError
-        If the ending or the mode is not known.
+        If the mode is not known, or the file cannot be written.
     """
-    path = Path(to)
-    makers = {".gif": gif, ".svg": svg}
-    if path.suffix.lower() not in makers:
-        raise ProblemError(f"{path.name}: a mode is written as .gif or .svg")
-    write_whole(path, makers[path.suffix.lower()](result, mode))
+    path = target(to, MOVING)
+    find_mode(result, mode)
+    with own_texts():
+        write_whole(path, {".gif": gif, ".svg": svg}[path.suffix.lower()](result, mode))
     return path
 
 

@@ -4,21 +4,10 @@ import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from yawdesign.problem import ProblemError
 from yawdesign.study.writing import write_whole
 
 if TYPE_CHECKING:
     from yawdesign.response.simulate import Simulation
-
-
-def checked_ending(path: str, endings: tuple[str, ...]) -> Path:
-    """Return a path that has one of the endings, in a folder that exists; an error otherwise."""
-    file = Path(path)
-    if file.suffix.lower() not in endings:
-        raise ProblemError(f"{path} must end in {' or '.join(endings)}")
-    if not file.parent.is_dir():
-        raise ProblemError(f"{path}: there is no folder {file.parent}")
-    return file
 
 
 def _columns(result: "Simulation") -> dict[str, Any]:

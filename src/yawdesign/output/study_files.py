@@ -5,10 +5,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import gettempdir
 
-from yawdesign.output.plots import PICTURES, write_picture
+from yawdesign.output.plots import picture_target, write_picture
 from yawdesign.output.plots import plot as draw
-from yawdesign.problem import ProblemError
+from yawdesign.output.study_plots import check_drawn
+from yawdesign.output.targets import target
 from yawdesign.problem.diagnostics import Mistakes
+from yawdesign.study.axes import Axis
 from yawdesign.study.result import Sweep
 
 
@@ -33,7 +35,7 @@ class Outputs:
     def checked(
         cls,
         problem_file: str,
-        axes: Sequence[str],
+        axes: Sequence[Axis],
         *,
         csv: str | None,
         npz: str | None,
@@ -41,24 +43,20 @@ class Outputs:
         resume: str | None,
     ) -> "Outputs":
         """Return the names of the files if they can be written: better now than after the work."""
-        names = {"--csv": csv, "--npz": npz, "--plot": plot, "--resume": resume}
-        mistakes = Mistakes()
-        for option, name in names.items():
+        mistakes, paths = Mistakes(), {}
+        for option, name in {"--csv": csv, "--npz": npz, "--plot": plot, "--resume": resume}.items():
             with mistakes.under(option):
-                if name is not None and not Path(name).absolute().parent.is_dir():
-                    raise ProblemError(f"there is no folder {Path(name).parent}")
+                check = picture_target if option == "--plot" else target
+                paths[option] = None if name is None else check(name)
         with mistakes.under("--plot"):
-            if plot is not None and Path(plot).suffix.lower() not in PICTURES:
-                raise ProblemError(f"{plot} does not end in {', '.join(PICTURES)}")
-            if plot is not None and len(axes) > 2:
-                raise ProblemError("a picture has one or two axes")
+            if plot is not None:
+                check_drawn(axes)
         mistakes.report()
-        kept = resume or f"{Path(problem_file).stem}.sweep.npz"
-        csv_path, npz_path, picture = (None if name is None else Path(name) for name in (csv, npz, plot))
-        return cls(csv_path, npz_path, picture, Path(kept))
+        kept = paths["--resume"] or Path(f"{Path(problem_file).stem}.sweep.npz")
+        return cls(paths["--csv"], paths["--npz"], paths["--plot"], kept)
 
     def write(self, sweep: Sweep) -> None:
-        """Write all files; if one cannot be written, the others are, and the first error is raised."""
+        """Write all files; if one cannot be drawn or written, the others are, and the first error is raised."""
         errors = []
         for path, write in (
             (self.csv, sweep.to_csv),
@@ -68,7 +66,7 @@ class Outputs:
             try:
                 if path is not None:
                     write(path)
-            except OSError as error:
+            except Exception as error:  # noqa: BLE001 - whatever it is, it may not cost the other files
                 errors.append(error)
         if errors:
             raise errors[0]

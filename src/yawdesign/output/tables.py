@@ -174,6 +174,9 @@ def export_tables(result: "Export") -> RenderableType:
     return _facts(f"Written to {result.folder}", [*rows, ("what they take and give", "manifest.json")])
 
 
-def show(table: RenderableType) -> None:
-    """Print tables on standard output."""
-    Console().print(table)
+def rendered(table: RenderableType) -> str:
+    """Return tables as a terminal shows them; brackets and colons in their texts are no markup."""
+    console = Console(markup=False, emoji=False)
+    with console.capture() as text:
+        console.print(table)
+    return text.get()

@@ -46,7 +46,7 @@ class Problem:
     def __post_init__(self) -> None:
         mistakes = Mistakes()
         with mistakes.under("title"):
-            as_text(self.title)
+            object.__setattr__(self, "title", as_text(self.title))
         with mistakes.under("equations"):
             as_choice(self.equations, EQUATIONS)
         for name, kind in (("bogie", Bogie), ("curve", Curve | None), ("design", Design)):

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Mapping
 from dataclasses import MISSING, dataclass, field, fields, replace
 from numbers import Real
 from types import MappingProxyType
 from typing import Any, TypeVar, cast
+from unicodedata import category
 
 from .diagnostics import Mistakes, ProblemError, suggestion
 from .quantities import format_number, format_quantity, parse_quantity, split_quantity
@@ -14,6 +16,7 @@ from .units import UnitError, kind_of, parse_unit, si_unit
 from .written import Written, exact
 
 T = TypeVar("T")
+NOT_SHOWN = ("Cc", "Cs", "Zl", "Zp")  # control characters, halves of pairs, separators of lines and paragraphs
 Range = tuple[float, float]
 
 
@@ -166,10 +169,14 @@ def as_count(value: object, low: int, high: int) -> int:
 
 
 def as_text(value: object) -> str:
-    """Return a text of one line."""
+    """Return a text as one line: breaks of lines become blanks, and what no file and no screen can show is refused."""
     if not isinstance(value, str):
         raise ProblemError(f"{_shown(value)} is not a text")
-    return value
+    text = " ".join(part.strip() for part in re.split(r"[\t\r\n]+", value)).strip()
+    wrong = next((sign for sign in text if category(sign) in NOT_SHOWN or sign in "\ufffe\uffff"), None)
+    if wrong is not None:
+        raise ProblemError(f"holds U+{ord(wrong):04X}, which is no sign that can be shown: leave it out")
+    return text
 
 
 def check_fields(instance: Any) -> None:

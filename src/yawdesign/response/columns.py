@@ -109,9 +109,8 @@ Fields = list[tuple[int, str]]  # where each begins, and what it says
 
 
 def _rows(name: str) -> list[tuple[int, Fields]]:
-    lines = [
-        (n, line) for n, line in enumerate(text_of(name).splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
-    ]
+    every = enumerate(text_of(name).splitlines(), 1)
+    lines = [(n, line) for n, line in every if line.strip() and line.lstrip()[0] != "#"]
     separator = ";" if lines and ";" in lines[0][1] else ","
     return [(n, _split(line, separator)) for n, line in lines]
 

@@ -19,9 +19,9 @@ def symbol(name: str) -> str:
 
 def ascii_text(text: str) -> str:
     """Return a text in plain ASCII on one line, which does not end a comment."""
-    for sign, plain in {"·": " ", "²": "^2", "*/": "* /", "\n": " "}.items():
+    for sign, plain in {"·": " ", "²": "^2", "*/": "* /"}.items():
         text = text.replace(sign, plain)
-    return text.encode("ascii", "replace").decode()
+    return "".join(sign if sign.isprintable() else " " for sign in text.encode("ascii", "replace").decode())
 
 
 def header(functions: Mapping[str, Documented], about: str) -> str:

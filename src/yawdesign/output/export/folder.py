@@ -33,7 +33,7 @@ def exported_folder(to: Path, *, force: bool) -> Iterator[Path]:
     OSError
         If it cannot be written.
     """
-    _refuse(to, force)
+    check_place(to, force=force)
     try:
         beside = Path(tempfile.mkdtemp(prefix=f".{to.name}.", dir=to if to.exists() else to.parent))
     except OSError as error:
@@ -45,7 +45,10 @@ def exported_folder(to: Path, *, force: bool) -> Iterator[Path]:
         shutil.rmtree(beside, ignore_errors=True)
 
 
-def _refuse(to: Path, force: bool) -> None:
+def check_place(to: Path, *, force: bool) -> None:
+    """Raise an error if an export cannot go to a place; arguments as in `exported_folder`."""
+    if not to.absolute().parent.is_dir():
+        raise ProblemError(f"{to}: there is no folder {to.parent}")
     if to.exists() and not to.is_dir():
         raise ProblemError(f"{to} is a file: give the name of a folder")
     if to.exists() and not force and any(to.iterdir()):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from yawdesign.design.functions import c_source, functions, listed, self_test, versions
 from yawdesign.output.export import c_files
-from yawdesign.output.export.folder import exported_folder, write_text
+from yawdesign.output.export.folder import check_place, exported_folder, write_text
 from yawdesign.output.export.manifest import write_manifest
 from yawdesign.output.export.matlab import write_mat
 from yawdesign.output.export.parcel import Parcel, Unavailable
@@ -123,6 +123,7 @@ def export(
     """
     only, formats = _sorted_out(only, formats)
     wanted = _formats(formats)
+    check_place(Path(to), force=force)
     documented = functions(problem, inputs, only).documented
     if not documented:
         raise ProblemError("no function is named: leave `only` out to export all")
