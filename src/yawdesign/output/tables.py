@@ -1,7 +1,8 @@
 """Results as tables for a terminal; nothing is computed here."""
 
+import io
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console, Group, RenderableType
 from rich.table import Table
@@ -175,8 +176,8 @@ def export_tables(result: "Export") -> RenderableType:
 
 
 def rendered(table: RenderableType) -> str:
-    """Return tables as a terminal shows them; brackets and colons in their texts are no markup."""
-    console = Console(markup=False, emoji=False)
-    with console.capture() as text:
-        console.print(table)
-    return text.get()
+    """Return tables as standard output shows them; brackets and colons in their texts are no markup."""
+    terminal, text = Console(), io.StringIO()
+    looks: dict[str, Any] = {"width": terminal.width, "force_terminal": terminal.is_terminal}
+    Console(file=text, markup=False, emoji=False, **looks).print(table)
+    return text.getvalue()

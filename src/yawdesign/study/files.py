@@ -42,9 +42,11 @@ def write_npz(sweep: Sweep, path: Path) -> None:
 
 def write_csv(sweep: Sweep, path: Path) -> None:
     """Write a sweep as a table."""
-    with whole_file(path) as file, io.TextIOWrapper(file, encoding="utf-8", newline="") as text:
+    with whole_file(path) as file:
+        text = io.TextIOWrapper(file, encoding="utf-8", newline="")
         text.write(f"# sweep of {sweep.of}\n# {origin(sweep)}\n")
         csv.writer(text).writerows(_rows(sweep))
+        text.detach()
 
 
 def _rows(sweep: Sweep) -> Iterator[list[Any]]:

@@ -1,5 +1,6 @@
 """Files that are there as a whole or not at all."""
 
+import io
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -23,8 +24,10 @@ def whole_file(path: Path) -> Iterator[BinaryIO]:
     """
     try:
         if path.exists() and not path.is_file():  # a device or a pipe is written to, not replaced
+            content = io.BytesIO()  # an archive cannot be written to what has no places
+            yield content
             with path.open("wb") as file:
-                yield file
+                file.write(content.getvalue())
         else:
             with _beside(path.resolve()) as file:
                 yield file
