@@ -37,6 +37,13 @@ def test_a_range_has_its_ends_and_its_number(low, ratio, n, log):
     assert steps == pytest.approx(steps.mean(), rel=1e-6)
 
 
+@pytest.mark.parametrize(
+    "values", [80.0, 80, "288 km/h", [80.0], ["288 km/h"], "80:80:1", np.float64(80), np.array(80)]
+)
+def test_one_value(values):
+    assert read_axis("v", values).values.tolist() == [80.0]
+
+
 def test_values_in_any_container():
     expected = [1e5, 1e6]
     for values in (

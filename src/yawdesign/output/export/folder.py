@@ -1,6 +1,8 @@
 """A folder of exported files: written beside its place and moved there, foreign files untouched."""
 
+import errno
 import json
+import os
 import shutil
 import tempfile
 from collections.abc import Iterator
@@ -48,7 +50,7 @@ def exported_folder(to: Path, *, force: bool) -> Iterator[Path]:
 def check_place(to: Path, *, force: bool) -> None:
     """Raise an error if an export cannot go to a place; arguments as in `exported_folder`."""
     if not to.absolute().parent.is_dir():
-        raise ProblemError(f"{to}: there is no folder {to.parent}")
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(to))
     if to.exists() and not to.is_dir():
         raise ProblemError(f"{to} is a file: give the name of a folder")
     if to.exists() and not force and any(to.iterdir()):
