@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Mapping
 from dataclasses import MISSING, dataclass, field, fields, replace
 from numbers import Real
@@ -169,10 +168,10 @@ def as_count(value: object, low: int, high: int) -> int:
 
 
 def as_text(value: object) -> str:
-    """Return a text as one line: breaks of lines become blanks, and what no file and no screen can show is refused."""
+    """Return a text of one line; what no file and no screen can show is refused."""
     if not isinstance(value, str):
         raise ProblemError(f"{_shown(value)} is not a text")
-    text = " ".join(part.strip() for part in re.split(r"[\t\r\n]+", value)).strip()
+    text = value.removesuffix("\n")  # with which a block of YAML ends
     wrong = next((sign for sign in text if category(sign) in NOT_SHOWN or sign in "\ufffe\uffff"), None)
     if wrong is not None:
         raise ProblemError(f"holds U+{ord(wrong):04X}, which is no sign that can be shown: leave it out")
