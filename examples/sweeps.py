@@ -33,7 +33,7 @@ def main(data=None):
     for name, result in sweeps().items():
         yd.plot(result).figure.savefig(FOLDER / f"{name}.png", dpi=110)
         if data:
-            result.to_csv(Path(data) / f"{name}.csv")
+            result.to_csv(Path(data) / f"{name}.csv", replace=True)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -9,7 +10,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from yawdesign.cli import app
+from yawdesign.cli import app, main
 
 PROBLEMS = Path(__file__).parents[1] / "problems"
 RUN = CliRunner()
@@ -144,3 +145,23 @@ def test_help_is_light():
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert "optimise" in done.stdout
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_request_to_stop_ends_any_command_tidily(number, tmp_path, monkeypatch, capsys):
+    """Also SIGTERM and a closed terminal: what stands beside an output is removed."""
+
+    def asked(content, *more):
+        assert len(list((tmp_path / "out").iterdir())) == 1
+        signal.raise_signal(number)
+
+    monkeypatch.setattr("yawdesign.output.export.write.write_text", asked)
+    folder = ("--to", str(tmp_path / "out"), "--only", "dynamic_stiffness", "--formats", "c")
+    monkeypatch.setattr(sys, "argv", ["yawdesign", "export", str(PROBLEMS / "table1.yaml"), *folder])
+    before = [signal.getsignal(x) for x in signal.valid_signals()]
+    with pytest.raises(SystemExit) as caught:
+        main()
+    assert caught.value.code == 128 + number
+    assert capsys.readouterr().err == "interrupted\n"
+    assert list(tmp_path.iterdir()) == []
+    assert [signal.getsignal(x) for x in signal.valid_signals()] == before

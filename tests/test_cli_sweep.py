@@ -1,7 +1,10 @@
 """The command sweep: answers by the contract, files, exit codes, and what it keeps when something breaks."""
 
 import errno
+import functools
+import importlib
 import json
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -13,6 +16,7 @@ from typer.testing import CliRunner
 import yawdesign as yd
 from yawdesign.cli import app
 from yawdesign.study import chunks
+from yawdesign.study.stopping import Stopped
 
 PROBLEM = Path(__file__).parents[1] / "problems" / "table1.yaml"
 RUN = CliRunner()
@@ -26,7 +30,7 @@ def in_a_folder_of_its_own(tmp_path, monkeypatch):
 
 def run(*arguments, code=0):
     result = RUN.invoke(app, ["sweep", str(PROBLEM), *map(str, arguments)])
-    assert result.exit_code == code, result.output + str(result.exception)
+    assert code in (None, result.exit_code), result.output + str(result.exception)
     return result
 
 
@@ -104,10 +108,7 @@ def test_exit_code_3_where_a_point_is_not_verified(monkeypatch):
         (("--over", "f_m=1:2:3", "--plot", "x.png", "--over", "v=1:2:3", "--over", "a=1:2:3"), ["one or two axes"]),
         (("--over", "v=80", "--plot", "x.png"), ["a single point has no picture"]),
         (("--over", "v=70:80:1"), ["v: one value cannot be both 70 and 80"]),
-        (
-            ("--over", "v=70:80:2", "--csv", ".", "--npz", "", "--resume", "."),
-            ["--csv: . is a folder", "--npz", "--resume"],
-        ),
+        (("--over", "v=70:80:2", "--csv", ".", "--npz", ".."), ["--csv: . is a folder", "--npz: .. is a folder"]),
         (("--over", "f_m=1:2:3", "--jobs", "2", "--dask", "tcp://127.0.0.1:1"), ["choose one"]),
         (("--over", "v=1:99:100000", "--over", "a=1:2:100000", "--over", "b=0.7:0.8:100000"), ["1e+15 points"]),
         (("--of", "stable"), ["Missing option"]),
@@ -156,11 +157,11 @@ def test_what_is_finished_is_kept(monkeypatch, error, code, resume):
     expected = answer(*CURVE)
     broken(monkeypatch, error)
     done = run(*CURVE, *resume, code=code)
-    name = "mine.npz" if resume else "table1.sweep.npz"
+    name, folder = "mine.npz" if resume else "table1.sweep.npz", Path.cwd()
     assert "2 of 5 points are finished" in done.stderr
     assert f"repeat the command with --resume {name}" in done.stderr
     monkeypatch.undo()
-    monkeypatch.chdir(Path(name).absolute().parent)
+    monkeypatch.chdir(folder)
     assert answer(*CURVE, "--resume", name)["values"] == [pytest.approx(x, rel=1e-12) for x in expected["values"]]
 
 
@@ -169,7 +170,7 @@ def full_disk(monkeypatch, *names):
     opened = Path.open
 
     def full(self, mode="r", *more, **options):
-        if "w" in mode and any(name in self.name for name in names):
+        if {*mode} & {*"w+"} and any(name in self.name for name in names):
             raise OSError(errno.ENOSPC, "No space left on device", str(self))
         return opened(self, mode, *more, **options)
 
@@ -186,22 +187,6 @@ def test_a_full_disk_keeps_the_answer_elsewhere(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(chunks, "answer", None)  # nothing is computed again
     run(*CURVE, "--csv", "x.csv", "--resume", "table1.sweep.npz")
-
-
-def test_a_picture_that_cannot_be_drawn_costs_no_points(monkeypatch, tmp_path):
-    def fails(*_):
-        raise ValueError("of the picture")
-
-    monkeypatch.setattr("yawdesign.output.study_files.draw", fails)
-    done = run(*CURVE, "--plot", "x.png", "--csv", "x.csv", code=3)
-    assert "the results could not be shown: ValueError: of the picture" in done.stderr
-    assert "--resume table1.sweep.npz" in done.stderr
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["table1.sweep.npz", "x.csv"]
-    monkeypatch.undo()
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(chunks, "answer", None)  # nothing is computed again
-    run(*CURVE, "--plot", "x.png", "--resume", "table1.sweep.npz")
-    assert Path("x.png").exists()
 
 
 def test_matplotlib_that_does_not_start_is_noticed_before_the_work(monkeypatch):
@@ -245,3 +230,128 @@ def test_a_device_that_is_full():
     assert "the answer could not be written" in done.stderr
     assert "--resume table1.sweep.npz" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def whole_sweep(name):
+    """Return the values that a kept file has for CURVE, of which nothing is computed again."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(chunks, "answer", None)
+        return answer(*CURVE, "--resume", name)["values"]
+
+
+@pytest.mark.parametrize(("number", "resume"), [(signal.SIGINT, ()), (signal.SIGTERM, ("--resume", "mine.npz"))])
+@pytest.mark.parametrize(
+    ("where", "name"),
+    [
+        ("yawdesign.study.files", "_rows"),
+        ("yawdesign.study.writing", "write_arrays"),
+        ("yawdesign.study.keeping", "_write"),
+        ("yawdesign.study.sweep", "gathered"),
+        ("yawdesign.study.sweep", "_boundary"),
+        ("yawdesign.output.study_files", "draw"),
+        ("yawdesign.output.plots", "write_whole"),
+        ("yawdesign.cli", "_show_sweep"),
+        ("numpy", "savez_compressed"),
+        ("numpy.lib.format", "write_array"),
+        ("zipfile", "ZipFile.close"),
+    ],
+)
+def test_a_request_to_stop_loses_no_finished_sweep(monkeypatch, where, name, resume, number, tmp_path):
+    """Whatever is being done when it comes, and when people ask again and again."""
+    expected = answer(*CURVE)["values"]
+    module = importlib.import_module(where)
+    *inside, last = name.split(".")
+    home = functools.reduce(getattr, inside, module)
+    done = getattr(home, last)
+
+    def asked(*arguments, **options):
+        signal.raise_signal(number)
+        found = done(*arguments, **options)
+        signal.raise_signal(number)
+        return found
+
+    monkeypatch.setattr(home, last, asked)
+    if name == "write_arrays":
+        monkeypatch.setattr("yawdesign.study.files.write_arrays", asked)
+    picture = ("--plot", "x.svg") if where.startswith("yawdesign.output") else ()
+    result = run(*CURVE, "--csv", "x.csv", "--npz", "x.npz", *picture, *resume, code=None)
+    monkeypatch.undo()
+    monkeypatch.chdir(tmp_path)
+    kept = "mine.npz" if resume else "table1.sweep.npz"
+    if name == "_write" and not resume:
+        assert result.exit_code == 0  # there is nothing to keep
+        return
+    assert result.exit_code == 128 + number
+    assert f"--resume {kept}" in result.stderr
+    assert whole_sweep(kept) == expected
+    left = {path.name for path in tmp_path.iterdir()} - {kept, "x.csv", "x.npz", "x.svg"}
+    assert not left
+    again = ["--force"] if "--force" in result.stderr else []
+    run(*CURVE, "--csv", "x.csv", "--npz", "x.npz", "--resume", kept, *again)
+    assert len(np.load("x.npz")["values"]) == 5
+
+
+def test_the_terminal_is_closed(monkeypatch):
+    broken(monkeypatch, Stopped(signal.SIGHUP))
+    done = run(*CURVE, code=129)
+    assert "2 of 5 points are finished, then it was stopped (SIGHUP)" in done.stderr
+
+
+def test_work_kept_of_another_sweep_is_not_overwritten(monkeypatch, tmp_path):
+    other = yd.sweep(yd.load(PROBLEM), of="stable", C_s=[1e5, 2e5])
+    other.keep("table1.sweep.npz")
+    Path("table1.sweep-2.npz").write_text("something else")
+    before = Path("table1.sweep.npz").read_bytes()
+    for _ in range(2):  # the same sweep adds to its file
+        with monkeypatch.context() as patch:
+            broken(patch, KeyboardInterrupt())
+            assert "--resume table1.sweep-3.npz" in run(*CURVE, code=130).stderr
+    assert Path("table1.sweep.npz").read_bytes() == before
+    assert Path("table1.sweep-2.npz").read_text() == "something else"
+
+
+def test_an_error_of_any_kind_while_a_file_is_written_keeps_the_sweep(monkeypatch, tmp_path):
+    def fails(result):
+        raise RuntimeError("no such font")
+
+    monkeypatch.setattr("yawdesign.output.study_files.draw", fails)
+    done = RUN.invoke(app, ["sweep", str(PROBLEM), *CURVE, "--plot", "x.png", "--csv", "x.csv"])
+    assert done.exit_code == 3
+    assert "the results could not be shown: RuntimeError: no such font" in done.stderr
+    assert "repeat the command with --resume table1.sweep.npz --force" in done.stderr
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["table1.sweep.npz", "x.csv"]
+    monkeypatch.undo()
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(chunks, "answer", None)  # nothing is computed again
+    run(*CURVE, "--plot", "x.png", "--resume", "table1.sweep.npz")
+    assert Path("x.png").exists()
+
+
+def test_outputs_replace_nothing_unasked(tmp_path):
+    problem = tmp_path / "p.yaml"
+    problem.write_text(PROBLEM.read_text())
+    (tmp_path / "link.yaml").symlink_to(problem)
+    for name in ("p.yaml", "link.yaml", "./p.yaml"):
+        for force in ((), ("--force",)):
+            result = RUN.invoke(app, ["sweep", "p.yaml", *CURVE, "--csv", name, *force])
+            assert result.exit_code == 2
+            assert "--csv: " in result.stderr
+            assert "is what the command reads" in result.stderr
+    run(*CURVE, "--csv", "x.csv")
+    before = Path("x.csv").read_bytes()
+    refused = run(*CURVE, "--csv", "x.csv", code=2)
+    assert "x.csv exists: choose another name, or give --force" in refused.stderr
+    assert Path("x.csv").read_bytes() == before
+    run("--over", "f_m=2:4:3", "--csv", "x.csv", "--force")
+    assert Path("x.csv").read_bytes() != before
+    assert problem.read_text() == PROBLEM.read_text()
+
+
+@pytest.mark.parametrize(
+    "options",
+    [("--csv", "x", "--npz", "x"), ("--npz", "x", "--resume", "./x"), ("--plot", "x.png", "--csv", "x.png")],
+)
+def test_two_outputs_of_one_name(options, tmp_path):
+    done = run(*CURVE, *options, "--force", code=2)
+    assert f"is also the file of {options[0] if options[0] != '--plot' else '--csv'}" in done.stderr
+    assert list(tmp_path.iterdir()) == []

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
+from signal import SIGINT
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -17,7 +18,7 @@ from yawdesign.output.streams import ANSWER, discard, open_streams, tell, write_
 if TYPE_CHECKING:
     from yawdesign.problem import Problem
 
-DONE, NOTHING_FEASIBLE, BAD_INPUT, SOLVER_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
+DONE, NOTHING_FEASIBLE, BAD_INPUT, SOLVER_FAILED, STOPPED = 0, 1, 2, 3, 128  # 128 and the number of the signal
 
 app = typer.Typer(
     help="Yaw damper design for motor bogies: hunting stability, curving limit and optimum.",
@@ -29,6 +30,7 @@ app = typer.Typer(
 
 ProblemFile = Annotated[str, typer.Argument(metavar="PROBLEM.YAML", help="The problem file.", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the result as JSON, in SI units.")]
+Force = Annotated[bool, typer.Option("--force", help="Replace files that are there.")]
 
 
 @contextmanager
@@ -43,6 +45,14 @@ def _mistakes_shown() -> Iterator[None]:
     except OSError as error:
         tell(f"error: {_reason(error)}")
         raise typer.Exit(BAD_INPUT) from None
+    except KeyboardInterrupt as error:
+        tell("interrupted")
+        raise typer.Exit(_stopped(error)) from None
+
+
+def _stopped(error: BaseException | None) -> int:
+    """Return the exit code of somebody's request to stop: 130 after Ctrl-C."""
+    return STOPPED + getattr(error, "number", SIGINT)
 
 
 def _reason(error: Exception) -> str:
@@ -139,6 +149,7 @@ def sweep(
     jobs: Annotated[int, typer.Option(min=1, help="Number of processes.")] = 1,
     dask: Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")] = None,
     resume: Annotated[str | None, typer.Option(help="File that keeps unfinished work, and goes on from it.")] = None,
+    force: Force = False,
     as_json: AsJson = False,
 ) -> None:
     """Answer one question at every point of a grid of parameters: curves, maps, stability charts."""
@@ -147,23 +158,44 @@ def sweep(
         from yawdesign.output.study_files import Outputs
         from yawdesign.study.chunks import workers
         from yawdesign.study.request import request
-        from yawdesign.study.sweep import IncompleteSweepError, answered
+        from yawdesign.study.stopping import held
 
         asked = request(problem, of, [(name, values) for name, _, values in (x.partition("=") for x in over)], hold)
-        outputs = Outputs.checked(file, asked.axes, csv=csv, npz=npz, plot=plot, resume=resume)
-        try:
-            with _progress() as progress, workers(jobs, dask) as executor, _warnings_told():
-                result = answered(asked, executor=executor, resume=resume, progress=progress)
-        except IncompleteSweepError as error:
-            tell(outputs.rescued(error.result, error.reason))
-            raise typer.Exit(INTERRUPTED if error.interrupted else SOLVER_FAILED) from None
-        try:
-            outputs.write(result)
-            _show_sweep(result, as_json)
-        except Exception as error:  # noqa: BLE001 - whatever it is, it may not cost the sweep
-            tell(outputs.rescued(result, _unwritten(error)))
-            raise typer.Exit(BAD_INPUT if isinstance(error, OSError) else SOLVER_FAILED) from None
+        outputs = Outputs.checked(file, asked.axes, csv=csv, npz=npz, plot=plot, resume=resume, force=force)
+        with workers(jobs, dask) as executor, held():
+            result = _swept(asked, outputs, {"executor": executor, "resume": resume})
+            _write_sweep(result, outputs, as_json)
     raise typer.Exit(_code(not result.unverified.any(), bool(result.good.any())))
+
+
+def _swept(asked: Any, outputs: Any, options: dict[str, Any]) -> Any:
+    """Return a sweep that came to its end; of another one what is finished is kept."""
+    from yawdesign.study.sweep import IncompleteSweepError, answered
+
+    try:
+        with _progress() as progress, _warnings_told():
+            return answered(asked, progress=progress, **options)
+    except IncompleteSweepError as error:
+        tell(outputs.rescued(error.result, error.reason))
+        raise typer.Exit(_stopped(error.__cause__) if error.interrupted else SOLVER_FAILED) from None
+
+
+def _write_sweep(result: Any, outputs: Any, as_json: bool) -> None:
+    """Write and show a sweep, and keep it if that fails or somebody stops it."""
+    from yawdesign.problem import ProblemError
+    from yawdesign.study.stopping import let_through
+
+    try:
+        outputs.write(result)
+        with let_through():
+            _show_sweep(result, as_json)
+    except KeyboardInterrupt as error:
+        tell(outputs.rescued(result, f"it was stopped ({error})"))
+        raise typer.Exit(_stopped(error)) from None
+    except Exception as error:  # noqa: BLE001 - whatever it is, it may not cost the sweep
+        tell(outputs.rescued(result, _unwritten(error)))
+        code = BAD_INPUT if isinstance(error, (OSError, ProblemError)) else SOLVER_FAILED
+        raise typer.Exit(code) from None
 
 
 def _show_sweep(result: Any, as_json: bool) -> None:
@@ -219,14 +251,17 @@ def simulate(
     npz: Annotated[str | None, typer.Option(help="Write the time histories as NumPy arrays.")] = None,
     plot: Annotated[str | None, typer.Option(help="Draw the frame's motion to a .png, .pdf or .svg file.")] = None,
     response: Annotated[str | None, typer.Option(help="What --plot draws; y_b.")] = None,
+    force: Force = False,
 ) -> None:
     """Run the bogie over a track: RMS, peaks, whether amplitudes settle, and what its yaw damper has to do."""
     with _mistakes_shown():
         from yawdesign.output import histories, plots
-        from yawdesign.output.targets import target
+        from yawdesign.output.targets import Target, checked_targets
 
-        to_csv, to_npz = (name and target(name, ending) for name, ending in ((csv, (".csv",)), (npz, (".npz",))))
-        to_plot = plot and plots.picture_target(plot)
+        tables = Target("--csv", csv, (".csv",), force), Target("--npz", npz, (".npz",), force)
+        targets = (*tables, Target("--plot", plot, plots.PICTURES, force))
+        to_csv, to_npz, to_plot = checked_targets(targets, [file, track])
+        plots.check_pictures(to_plot)
         problem = _read(file)
         _check_response(problem, response, plot)
         with _progress() as progress:
@@ -247,11 +282,11 @@ def simulate(
                 progress=progress,
             )
         if to_plot:
-            plots.write_picture(plots.plot(result, response=response or "y_b"), to_plot)
+            plots.write_picture(plots.plot(result, response=response or "y_b"), to_plot, replace=force)
         if to_csv:
-            histories.write_csv(result, to_csv)
+            histories.write_csv(result, to_csv, replace=force)
         if to_npz:
-            histories.write_npz(result, to_npz)
+            histories.write_npz(result, to_npz, replace=force)
         _show(result, as_json, "simulation_tables", "yawdesign.output.response_tables")
     raise typer.Exit(_code(result.checked, result.settles))
 
@@ -283,14 +318,17 @@ def modes(
     ] = "",
     animate: Annotated[str, typer.Option(metavar="MODE", help="Which mode is drawn; the slowest if not given.")] = "",
     to: Annotated[str, typer.Option(metavar="FILE", help="Show the mode in motion: a .gif or .svg file.")] = "",
+    force: Force = False,
     as_json: AsJson = False,
 ) -> None:
     """Show all modes by name: frequency, damping, what takes part; follow them over speed or any parameter."""
     with _mistakes_shown():
         from yawdesign.output import plots
+        from yawdesign.output.targets import Target, checked_targets
 
-        to_plot = plot and plots.picture_target(plot)
-        to_file = to and plots.picture_target(to, import_module("yawdesign.output.animation").MOVING)
+        pictures = Target("--plot", plot, plots.PICTURES, force), Target("--to", to, plots.ANIMATIONS, force)
+        to_plot, to_animate = checked_targets(pictures, [file])
+        plots.check_pictures(to_plot, to_animate)
         _check_modes(over=over, plot=plot, of=of, animate=animate, to=to)
         problem = _read(file)
         if over:
@@ -299,9 +337,10 @@ def modes(
             result = import_module("yawdesign.response.modes").modes(problem)
         if to_plot:
             options: dict[str, Any] = {"of": of or "root_locus"} if over else {"mode": animate or None}
-            plots.write_picture(plots.plot(result, **options), to_plot)
-        if to_file:
-            import_module("yawdesign.output.animation").animate(result, to_file, mode=animate or None)
+            plots.write_picture(plots.plot(result, **options), to_plot, replace=force)
+        if to_animate:
+            moving = import_module("yawdesign.output.animation").animate
+            moving(result, to_animate, mode=animate or None, replace=force)
         _show(result, as_json, "followed_tables" if over else "modes_tables", "yawdesign.output.mode_tables")
     raise typer.Exit(_code(result.checked, bool(over) or result.stable))
 
@@ -390,16 +429,15 @@ def new(
     force: Annotated[bool, typer.Option("--force", help="Replace the file if it exists.")] = False,
 ) -> None:
     """Write a commented problem file to start from."""
+    from yawdesign.output.targets import Target, checked_targets
     from yawdesign.problem import ProblemError, starter
     from yawdesign.study.writing import write_whole
 
     with _mistakes_shown():
         if kind not in ("power", "trailer"):
             raise ProblemError(f"--kind {kind} is not one of power, trailer")
-        path = Path(file)
-        if path.exists() and not force:
-            raise ProblemError(f"{file} exists: choose another name, or give --force to replace it")
-        write_whole(path, starter(kind).encode())
+        checked_targets([Target("", file, replaced=force)], [])
+        write_whole(Path(file), starter(kind).encode(), replace=force)
         write_answer(f"wrote {file}; next: yawdesign optimise {file}\n")
 
 
@@ -432,14 +470,18 @@ def _version(
 
 
 def main() -> None:
-    """Run the command line; Ctrl-C, or an answer that cannot be written, ends it without a traceback."""
+    """Run the command line; no request to stop, and no answer that cannot be written, ends it with a traceback."""
     open_streams()
     os.environ["MPLBACKEND"] = "agg"  # pictures are files: no window, whatever a user has set
+    from yawdesign.study.stopping import ignore_requests, watched
+
     try:
-        app()
-    except KeyboardInterrupt:
+        with watched():
+            app()
+    except KeyboardInterrupt as error:
+        ignore_requests()
         tell("interrupted")
-        sys.exit(INTERRUPTED)
+        sys.exit(_stopped(error))
     except OSError as error:  # of the texts that the library of the command line writes itself, such as --help
         discard(sys.stdout)
         tell(f"error: {ANSWER} could not be written: {error.strerror}")

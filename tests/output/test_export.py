@@ -6,6 +6,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 from pathlib import Path
 
@@ -335,3 +336,62 @@ def test_a_run_that_fails_leaves_nothing(tmp_path, monkeypatch):
     with pytest.raises(RuntimeError, match="in the middle"):
         yd.export(yd.table1(), tmp_path / "out", only="dynamic_stiffness")
     assert list(tmp_path.iterdir()) == []
+
+
+def export_small(to, **options):
+    return yd.export(yd.table1(), to, only="dynamic_stiffness", formats="c", **options)
+
+
+def test_what_a_killed_export_has_left_is_no_content(tmp_path):
+    left = tmp_path / ".yawdesign-abcd.part"
+    left.mkdir()
+    (left / "half.c").write_text("half")
+    export_small(tmp_path)
+    assert left.exists()  # another export may be at work
+    os.utime(left, (0, 0))
+    for path in tmp_path.iterdir():
+        if path != left:
+            path.unlink()
+    export_small(tmp_path)
+    assert not left.exists()
+
+
+def test_a_kill_while_files_are_moved(tmp_path, monkeypatch):
+    """Between every two of them: the manifest says so, and the next export needs no force."""
+    to = tmp_path / "out"
+    whole = {path.name: path.read_bytes() for path in Path(export_small(tmp_path / "whole").folder).iterdir()}
+    replace = Path.replace
+    for moves in range(len(whole)):
+        calls = []
+
+        def killed(self, target, *, calls=calls, moves=moves):
+            if self.parent.parent == to:
+                calls.append(self)
+                if len(calls) > moves:
+                    raise SystemExit
+            return replace(self, target)
+
+        monkeypatch.setattr(Path, "replace", killed)
+        with pytest.raises(SystemExit):
+            export_small(to)
+        monkeypatch.setattr(Path, "replace", replace)
+        assert "unfinished" in manifest_of(to)
+        assert sorted(manifest_of(to)["files"]) == sorted(whole)
+        export_small(to)
+        assert {path.name: path.read_bytes() for path in to.iterdir()} == whole
+        shutil.rmtree(to)
+
+
+def test_a_request_to_stop_while_files_are_moved_waits(tmp_path, monkeypatch):
+    replace = Path.replace
+
+    def asked(self, target):
+        signal.raise_signal(signal.SIGTERM)
+        return replace(self, target)
+
+    monkeypatch.setattr(Path, "replace", asked)
+    with pytest.raises(KeyboardInterrupt):
+        export_small(tmp_path / "out")
+    manifest = manifest_of(tmp_path / "out")
+    assert "unfinished" not in manifest
+    assert sorted(manifest["files"]) == sorted(path.name for path in (tmp_path / "out").iterdir())

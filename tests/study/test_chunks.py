@@ -120,6 +120,71 @@ def test_an_interrupted_executor_keeps_what_is_finished(monkeypatch, expected):
     assert result.main[result.finished] == pytest.approx(expected.main[result.finished], nan_ok=True)
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("threads", [False, True])
+def test_a_signal_keeps_what_is_finished(expected, tmp_path, number, threads):
+    """It waits while an answer is stored or a file is written, and ends the sweep where points are computed."""
+    with ThreadPoolExecutor(1) as executor, pytest.raises(yd.IncompleteSweepError) as caught:
+        yd.sweep(
+            PRINTED,
+            executor=executor if threads else None,
+            chunk=3,
+            resume=tmp_path / "kept.npz",
+            progress=lambda text, part: signal.raise_signal(number),
+            **GRID,
+        )
+    assert caught.value.interrupted
+    assert caught.value.__cause__.number == number
+    assert f"it was stopped ({number.name})" in str(caught.value)
+    finished = caught.value.result.finished
+    assert 0 < finished.sum() < 30
+    store = yd.sweep(PRINTED, resume=tmp_path / "kept.npz", **GRID)
+    assert same(store, expected)
+
+
+def test_a_signal_after_the_last_point_keeps_the_whole(monkeypatch, expected):
+    """Python has no other place for the result than the error."""
+    monkeypatch.setattr(sweeps, "_boundary", lambda *arguments: (signal.raise_signal(signal.SIGTERM), None))
+    with pytest.raises(yd.IncompleteSweepError, match="30 of 30 points") as caught:
+        yd.sweep(PRINTED, **GRID)
+    assert same(caught.value.result, expected)
+    assert signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
+
+
+def test_a_signal_in_the_computation_of_the_lines_keeps_the_whole(monkeypatch):
+    answered = sweeps.answered
+
+    def asked(request, **options):
+        if request.of == "critical":
+            monkeypatch.setattr(chunks, "answer", lambda *_: signal.raise_signal(signal.SIGTERM))
+        return answered(request, **options)
+
+    monkeypatch.setattr(sweeps, "answered", asked)
+    with pytest.raises(yd.IncompleteSweepError, match="3 of 3 points") as caught:
+        yd.sweep(PRINTED, of="C_sl", v=[70.0, 80.0, 90.0])
+    assert caught.value.result.known.all()
+
+
+@pytest.mark.parametrize("error", [SystemExit, ValueError])
+def test_what_is_raised_by_a_callback_or_an_own_handler_keeps_what_is_finished(error, expected, tmp_path):
+    def stop(text, part):
+        raise error
+
+    with pytest.raises((SystemExit, yd.IncompleteSweepError)):
+        yd.sweep(PRINTED, chunk=3, resume=tmp_path / "kept.npz", progress=stop, **GRID)
+    with np.load(tmp_path / "kept.npz") as kept:
+        assert kept["finished"].sum() == 3
+    assert same(yd.sweep(PRINTED, resume=tmp_path / "kept.npz", **GRID), expected)
+
+
+def test_nothing_finished_is_not_kept(monkeypatch, tmp_path):
+    Counted(monkeypatch, after=0)
+    with pytest.raises(yd.IncompleteSweepError, match=r"0 of 30 points.*nothing to keep") as caught:
+        yd.sweep(PRINTED, resume=tmp_path / "kept.npz", **GRID)
+    caught.value.result.keep(tmp_path / "kept.npz")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_partial_result_can_be_kept_and_gone_on_from(monkeypatch, expected, tmp_path):
     Counted(monkeypatch, after=2)
     with pytest.raises(yd.IncompleteSweepError, match="keep") as caught:
@@ -236,7 +301,7 @@ def test_a_file_of_another_sweep_is_refused(tmp_path):
 def test_a_file_of_another_version_is_refused(monkeypatch, tmp_path):
     file = tmp_path / "kept.npz"
     yd.sweep(PRINTED, resume=file, **GRID)
-    monkeypatch.setattr("yawdesign.study.store.__version__", "9.9")
+    monkeypatch.setattr("yawdesign.study.keeping.__version__", "9.9")
     with pytest.raises(yd.ProblemError, match="version"):
         yd.sweep(PRINTED, resume=file, **GRID)
 

@@ -110,7 +110,7 @@ def test_the_critical_lines_hold_what_the_sweep_holds():
     assert abs(ratio / damping - 1).min() > 1e-3
 
 
-@pytest.mark.parametrize("error", [ValueError("of the lines"), MemoryError("too little"), KeyboardInterrupt()])
+@pytest.mark.parametrize("error", [ValueError("of the lines"), MemoryError("too little")])
 def test_a_fault_after_the_last_point_costs_the_lines_alone(monkeypatch, error):
     expected = sweeps.swept(BOGIES["power"], "C_sl", [("v", [70.0, 80.0])])
     computed = chunks.answer
@@ -128,3 +128,18 @@ def test_a_fault_after_the_last_point_costs_the_lines_alone(monkeypatch, error):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert sweeps.swept(BOGIES["power"], "C_sl", [("v", [70.0, 80.0])]).finished.all()
+
+
+def test_a_stop_after_the_last_point_costs_none(monkeypatch):
+    computed = chunks.answer
+
+    def stopped(task, *arguments):
+        if task.question.of == "critical":
+            raise KeyboardInterrupt
+        return computed(task, *arguments)
+
+    monkeypatch.setattr(chunks, "answer", stopped)
+    with pytest.raises(yd.IncompleteSweepError) as caught:
+        sweeps.swept(BOGIES["power"], "C_sl", [("v", [70.0, 80.0])])
+    assert caught.value.interrupted
+    assert caught.value.result.finished.all()

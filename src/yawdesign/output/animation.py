@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 
 from yawdesign.output.mode_plots import mode_shape
 from yawdesign.output.plan_view import COLOURS, REST, Body, Corner, bodies, caption, find_mode, half_size, subtitle
-from yawdesign.output.plots import own_texts
-from yawdesign.output.targets import target
+from yawdesign.output.plots import ANIMATIONS, own_texts
+from yawdesign.output.targets import Target, checked_targets
 from yawdesign.study.writing import write_whole
 
 if TYPE_CHECKING:
     from yawdesign.response.modes import Modes, NamedMode
 
-MOVING = (".gif", ".svg")
 FRAMES, PERIOD = 24, 1.6  # pictures and seconds of a cycle
 SCALE = 100.0  # units of the SVG in a metre
 
@@ -35,7 +34,7 @@ SCRIPT = """(function () {
 })();"""
 
 
-def animate(result: "Modes", to: str | Path, *, mode: str | None = None) -> Path:
+def animate(result: "Modes", to: str | Path, *, mode: str | None = None, replace: bool = False) -> Path:
     """Write a mode in motion to a file.
 
     An oscillating mode is shown over one cycle, without its decay or growth; another one as it dies out.
@@ -49,6 +48,8 @@ def animate(result: "Modes", to: str | Path, *, mode: str | None = None) -> Path
         runs scripts.
     mode : str, optional
         Name of the mode; the least damped one if not given.
+    replace : bool
+        Whether a file that is there is replaced.
 
     Returns
     -------
@@ -58,12 +59,16 @@ def animate(result: "Modes", to: str | Path, *, mode: str | None = None) -> Path
     Raises
     ------
     ProblemError
-        If the mode is not known, or the file cannot be written.
+        If the ending or the mode is not known, there is no such folder, or there is a file that may not be replaced.
+    OSError
+        If it cannot be written.
     """
-    path = target(to, MOVING)
+    path = Path(to)
+    checked_targets([Target("", str(path), ANIMATIONS, replace)], [])
     find_mode(result, mode)
+    makers = {".gif": gif, ".svg": svg}
     with own_texts():
-        write_whole(path, {".gif": gif, ".svg": svg}[path.suffix.lower()](result, mode))
+        write_whole(path, makers[path.suffix.lower()](result, mode), replace=replace)
     return path
 
 

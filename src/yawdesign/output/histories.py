@@ -1,10 +1,10 @@
-"""Time histories and pictures as files, written beside their place and renamed."""
+"""Time histories as files."""
 
 import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from yawdesign.study.writing import write_whole
+from yawdesign.study.writing import write_arrays, write_whole
 
 if TYPE_CHECKING:
     from yawdesign.response.simulate import Simulation
@@ -23,20 +23,16 @@ def _columns(result: "Simulation") -> dict[str, Any]:
     return columns | {f"{x} [{first.unit(x)}]": np.concatenate([h[x] for h in runs]) for x in first.values}
 
 
-def write_csv(result: "Simulation", path: Path) -> None:
+def write_csv(result: "Simulation", path: Path, *, replace: bool = False) -> None:
     """Write all histories as text, speeds below each other, SI units in the head."""
     import numpy as np
 
     columns = _columns(result)
     text = io.StringIO()
     np.savetxt(text, np.stack(list(columns.values()), 1), "%.9g", ",", header=", ".join(columns), comments="")
-    write_whole(path, text.getvalue().encode())
+    write_whole(path, text.getvalue().encode(), replace=replace)
 
 
-def write_npz(result: "Simulation", path: Path) -> None:
+def write_npz(result: "Simulation", path: Path, *, replace: bool = False) -> None:
     """Write all histories as NumPy arrays named as in `History.values`, and speed, time and distance, in SI."""
-    import numpy as np
-
-    data = io.BytesIO()
-    np.savez_compressed(data, **{name.split(" ")[0]: values for name, values in _columns(result).items()})
-    write_whole(path, data.getvalue())
+    write_arrays(path, {name.split(" ")[0]: values for name, values in _columns(result).items()}, replace=replace)

@@ -4,12 +4,10 @@ import io
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
-from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from unicodedata import category
 
-from yawdesign.output.targets import target
 from yawdesign.problem import ProblemError
 from yawdesign.study.writing import write_whole
 
@@ -17,6 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 PICTURES = (".png", ".pdf", ".svg")
+ANIMATIONS = (".gif", ".svg")
 DOTS_PER_INCH = 150
 # Whatever a user's matplotlibrc says: the texts hold Matplotlib's own mathematics, which LaTeX does not understand.
 TEXTS = {"text.usetex": False, "text.parse_math": True}
@@ -88,23 +87,24 @@ def literal(text: str) -> str:
     return "".join(shown).replace("$", r"\$")
 
 
-def picture_target(name: str | PathLike[str], endings: tuple[str, ...] = PICTURES) -> Path:
-    """Return the path of a picture that can be drawn and written; errors as in `target`, and where Matplotlib fails."""
-    path = target(name, endings)
+def check_pictures(*paths: Path | None) -> None:
+    """Raise a ProblemError if there are pictures to draw, and Matplotlib does not start."""
+    name = next((path for path in paths if path is not None), None)
+    if name is None:
+        return
     try:
         import_module("matplotlib.figure")
     except Exception as error:  # noqa: BLE001 - a faulty setting of the user's shows itself in many ways
         raise ProblemError(f"{name} cannot be drawn, Matplotlib does not start: {error}") from None
-    return path
 
 
-def write_picture(axes: "Axes", path: Path) -> None:
-    """Write the figure of some axes to a file, as a whole or not at all; the ending, one of `PICTURES`, tells how."""
+def write_picture(axes: "Axes", path: Path, *, replace: bool = False) -> None:
+    """Write the figure of some axes as in `whole_file`; the ending of the name, one of `PICTURES`, tells how."""
     content = io.BytesIO()
     figure: Any = axes.get_figure(root=True)
     with own_texts():
         figure.savefig(content, format=path.suffix[1:].lower(), dpi=DOTS_PER_INCH)
-    write_whole(path, content.getvalue())
+    write_whole(path, content.getvalue(), replace=replace)
 
 
 def new_axes(ax: "Axes | None") -> "Axes":

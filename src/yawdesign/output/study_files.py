@@ -1,17 +1,21 @@
 """Files that a sweep leaves behind, and what becomes of it when one cannot be written."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import gettempdir
+from tempfile import mkdtemp
 
-from yawdesign.output.plots import picture_target, write_picture
+from yawdesign.output.plots import PICTURES, check_pictures, write_picture
 from yawdesign.output.plots import plot as draw
 from yawdesign.output.study_plots import check_drawn
-from yawdesign.output.targets import target
+from yawdesign.output.targets import Target, checked_targets
+from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.study.axes import Axis
 from yawdesign.study.result import Sweep
+from yawdesign.study.stopping import held, let_through
+
+MOST_KEPT = 100  # files of one name; then the system's temporary folder is used
 
 
 @dataclass(frozen=True)
@@ -22,14 +26,20 @@ class Outputs:
     ----------
     csv, npz, picture : Path or None
         Table, arrays and picture.
-    kept : Path
-        Where the finished points go if something breaks.
+    resume : Path or None
+        File that keeps the finished points anyway.
+    problem_file : str
+        After which a file is named that keeps them if something breaks.
+    replace : bool
+        Whether tables, arrays and pictures that are there are replaced.
     """
 
     csv: Path | None
     npz: Path | None
     picture: Path | None
-    kept: Path
+    resume: Path | None
+    problem_file: str
+    replace: bool
 
     @classmethod
     def checked(
@@ -41,42 +51,69 @@ class Outputs:
         npz: str | None,
         plot: str | None,
         resume: str | None,
+        force: bool,
     ) -> "Outputs":
         """Return the names of the files if they can be written: better now than after the work."""
-        mistakes, paths = Mistakes(), {}
-        for option, name in {"--csv": csv, "--npz": npz, "--plot": plot, "--resume": resume}.items():
-            with mistakes.under(option):
-                check = picture_target if option == "--plot" else target
-                paths[option] = None if name is None else check(name)
+        mistakes = Mistakes()
+        with mistakes.under(""):
+            targets = (
+                Target("--csv", csv, replaced=force),
+                Target("--npz", npz, replaced=force),
+                Target("--plot", plot, PICTURES, replaced=force),
+                Target("--resume", resume, replaced=True),  # a file of another sweep is refused when it is read
+            )
+            checked_targets(targets, [problem_file])
+        table, arrays, picture, kept = (Path(name) if name else None for name in (csv, npz, plot, resume))
         with mistakes.under("--plot"):
-            if plot is not None:
+            if picture is not None:
                 check_drawn(axes)
+                check_pictures(picture)
         mistakes.report()
-        kept = paths["--resume"] or Path(f"{Path(problem_file).stem}.sweep.npz")
-        return cls(paths["--csv"], paths["--npz"], paths["--plot"], kept)
+        return cls(table, arrays, picture, kept, problem_file, force)
 
     def write(self, sweep: Sweep) -> None:
         """Write all files; if one cannot be drawn or written, the others are, and the first error is raised."""
-        errors = []
+        errors: list[Exception] = []
         for path, write in (
             (self.csv, sweep.to_csv),
             (self.npz, sweep.to_npz),
-            (self.picture, lambda path: write_picture(draw(sweep), path)),
+            (self.picture, lambda path, *, replace: write_picture(draw(sweep), path, replace=replace)),
         ):
             try:
                 if path is not None:
-                    write(path)
-            except Exception as error:  # noqa: BLE001 - whatever it is, it may not cost the other files
+                    with let_through():
+                        write(path, replace=self.replace)
+            except Exception as error:  # noqa: BLE001 - the other files are written, and this error is raised
                 errors.append(error)
         if errors:
             raise errors[0]
 
     def rescued(self, sweep: Sweep, reason: str) -> str:
-        """Keep a sweep where there is room for it, and return what to tell."""
-        for path in (self.kept, Path(gettempdir()) / self.kept.name):
-            try:
-                sweep.keep(path)
-            except OSError:
-                continue
-            return f"error: {reason}\nAll that is finished is in {path}: repeat the command with --resume {path}"
-        return f"error: {reason}\nIt could not be kept in {self.kept} either: make room"
+        """Keep a sweep where there is room for it, and return what to tell; requests to stop wait."""
+        if not sweep.finished.any():
+            return f"error: {reason}"
+        with held():
+            for path in self._places():
+                try:
+                    sweep.keep(path)
+                except (OSError, ProblemError):  # no room, or a file of another sweep
+                    continue
+                again = f"repeat the command with --resume {path}{self._force()}"
+                return f"error: {reason}\nAll that is finished is in {path}: {again}"
+        return f"error: {reason}\nIt could not be kept, neither here nor in the system's temporary folder: make room"
+
+    def _places(self) -> Iterator[Path]:
+        if self.resume is not None:
+            yield self.resume
+        stem = f"{Path(self.problem_file).stem}.sweep"
+        for k in range(1, MOST_KEPT):
+            yield Path(f"{stem}.npz" if k == 1 else f"{stem}-{k}.npz")
+        try:
+            yield Path(mkdtemp(prefix="yawdesign-"), f"{stem}.npz")  # nobody else can write there
+        except OSError:
+            return
+
+    def _force(self) -> str:
+        """Return what allows the repeated command to replace the files that this one has written."""
+        written = any(path is not None and path.is_file() for path in (self.csv, self.npz, self.picture))
+        return " --force" if written else ""

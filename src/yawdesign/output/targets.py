@@ -1,34 +1,86 @@
-"""Files to be written: looked at before the work that fills them."""
+"""Names of the files that a command is to write, checked before its work: better now than after it."""
 
 import os
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
 
 from yawdesign.problem import ProblemError
+from yawdesign.problem.diagnostics import Mistakes
+from yawdesign.study.writing import is_stream
 
 
-def target(name: str | os.PathLike[str], endings: tuple[str, ...] = ()) -> Path:
-    """Return the path of a file that can be written.
+@dataclass(frozen=True)
+class Target:
+    """A file to write.
 
     Parameters
     ----------
-    name : path
-        Name of the file; it may be there already.
+    option : str
+        Of the command line, such as ``--csv``.
+    name : str or None
+        What was given for it.
     endings : tuple of str
-        One of which it must have, in small or capital letters; any if none is given.
+        Which the name may have; any if there are none.
+    replaced : bool
+        Whether a file that is there may be replaced.
+    """
+
+    option: str
+    name: str | None
+    endings: tuple[str, ...] = ()
+    replaced: bool = False
+
+
+def checked_targets(targets: Iterable[Target], inputs: Iterable[str]) -> list[Path | None]:
+    """Return the paths of the files, if they can be written and nothing is lost.
+
+    Parameters
+    ----------
+    targets : iterable of Target
+        Files to write.
+    inputs : iterable of str
+        Files that the command reads; what is no file is not looked at.
 
     Raises
     ------
     ProblemError
-        If its ending is another one, its folder does not exist or must not be written, or a folder has this name.
+        With all mistakes: a folder or ending that is not there, no permission, a file that exists or is read, a name
+        given twice.
     """
-    path = Path(name)
-    if endings and path.suffix.lower() not in endings:
-        raise ProblemError(f"{name} must end in {' or '.join(endings)}")
-    folder = path.absolute().parent
-    if not folder.is_dir():
-        raise ProblemError(f"{name}: there is no folder {path.parent}")
+    mistakes, paths = Mistakes(), []
+    taken = [(Path(name), "is what the command reads") for name in inputs if Path(name).is_file()]
+    for target in targets:
+        path = Path(target.name) if target.name else None
+        paths.append(path)
+        with mistakes.under(target.option):
+            if path is not None:
+                others = tuple(taken)
+                taken.append((path, f"is also the file of {target.option}"))
+                _check_others(path, others)
+                _check(path, target)
+    mistakes.report()
+    return paths
+
+
+def _check(path: Path, target: Target) -> None:
+    if target.endings and path.suffix.lower() not in target.endings:
+        raise ProblemError(f"{path} must end in {' or '.join(target.endings)}")
+    if not path.absolute().parent.is_dir():
+        raise ProblemError(f"{path}: there is no folder {path.parent}")
     if path.is_dir():
-        raise ProblemError(f"{name!s} is a folder: give the name of a file")
-    if not os.access(path if path.exists() and not path.is_file() else folder.resolve(), os.W_OK):
-        raise ProblemError(f"{name}: no permission to write")
-    return path
+        raise ProblemError(f"{path} is a folder: give the name of a file")
+    if not os.access(path if is_stream(path) else path.resolve().parent, os.W_OK):
+        raise ProblemError(f"{path}: no permission to write")
+    if os.path.lexists(path) and not target.replaced and not is_stream(path):
+        raise ProblemError(f"{path} exists: choose another name, or give --force to replace it")
+
+
+def _check_others(path: Path, others: Iterable[tuple[Path, str]]) -> None:
+    for other, why in others:
+        if not is_stream(path) and _same(path, other):
+            raise ProblemError(f"{path} {why}: choose another name")
+
+
+def _same(one: Path, other: Path) -> bool:
+    return one.resolve() == other.resolve() or (one.exists() and other.exists() and one.samefile(other))

@@ -14,6 +14,7 @@ from yawdesign.study.axes import applied, block
 from yawdesign.study.points import LENGTH, VERDICTS, evaluate
 from yawdesign.study.question import Answers
 from yawdesign.study.request import Request, Task
+from yawdesign.study.stopping import held, let_through
 from yawdesign.study.store import Store
 
 HERE = VERDICTS * (os.cpu_count() or 1)  # points of a chunk in this process, whose threads share them
@@ -33,7 +34,7 @@ def answer(task: Task, point: Mapping[str, Any], threads: int | None = 1) -> Ans
 def fill(
     store: Store, asked: Request, executor: Any, chunk: int | None, done: Callable[[], None]
 ) -> BaseException | None:
-    """Compute what a store has not got yet.
+    """Compute what a store has not got yet; requests to stop end it between what is finished, and lose nothing of that.
 
     Parameters
     ----------
@@ -53,20 +54,23 @@ def fill(
     BaseException or None
         What went wrong, if not all could be computed.
     """
-    try:
-        if executor is None:
-            return _fill_here(store, asked, store.missing(chunk or HERE), done)
-        chunk = chunk or min(max(asked.size // PARTS, SMALLEST), LARGEST)
-        return _Handover(store, asked, as_executor(executor), done).run(store.missing(chunk))
-    except KeyboardInterrupt as error:
-        return error
+    with held():
+        try:
+            if executor is None:
+                return _fill_here(store, asked, store.missing(chunk or HERE), done)
+            chunk = chunk or min(max(asked.size // PARTS, SMALLEST), LARGEST)
+            return _Handover(store, asked, as_executor(executor), done).run(store.missing(chunk))
+        except (KeyboardInterrupt, Exception) as error:  # noqa: BLE001 - also of `done`; what is finished is in the store
+            return error
 
 
 def _fill_here(store: Store, asked: Request, blocks: Blocks, done: Callable[[], None]) -> BaseException | None:
     failed: BaseException | None = None
     for start, stop in list(blocks):
         try:
-            store.put(start, answer(asked.task, block(asked.axes, start, stop), None))
+            with let_through():
+                answers = answer(asked.task, block(asked.axes, start, stop), None)
+            store.put(start, answers)
         except Exception as error:  # noqa: BLE001 - the other chunks are computed, and this one is reported
             failed = failed or error
         done()
@@ -85,7 +89,8 @@ class _Handover:
         todo = iter(list(blocks))
         try:
             while self._submit(todo) or self.waiting:
-                finished, _ = wait(self.waiting, return_when=FIRST_COMPLETED)
+                with let_through():
+                    finished, _ = wait(self.waiting, return_when=FIRST_COMPLETED)
                 for future in finished:
                     self._take(future)
                 self.done()

@@ -4,7 +4,9 @@ import csv
 import io
 import json
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,10 +14,10 @@ import numpy as np
 from yawdesign.problem import ProblemError
 from yawdesign.problem.result import plain
 from yawdesign.study.axes import ROWS, block
-from yawdesign.study.question import Array
-from yawdesign.study.result import UNITS, Sweep
+from yawdesign.study.question import UNITS, Array
+from yawdesign.study.result import Sweep
 from yawdesign.study.store import MASKS
-from yawdesign.study.writing import whole_file
+from yawdesign.study.writing import refuse_existing, whole_file, write_arrays, write_whole
 
 if TYPE_CHECKING:
     import xarray
@@ -28,21 +30,19 @@ def origin(sweep: Sweep) -> str:
     return json.dumps(plain(sweep.provenance))
 
 
-def write_npz(sweep: Sweep, path: Path) -> None:
+def write_npz(sweep: Sweep, path: Path, *, replace: bool) -> None:
     """Write a sweep as arrays."""
     axes = {f"axis_{axis.name}": axis.values for axis in sweep.axes}
     units = {axis.name: axis.unit for axis in sweep.axes} | {name: UNITS[name] for name in sweep.columns}
     texts: dict[str, Any] = {"of": sweep.of, "axes": [axis.name for axis in sweep.axes], "units": json.dumps(units)}
     masks = {name: getattr(sweep, name) for name in MASKS}
     texts["provenance"] = origin(sweep)
-    arrays = {"values": sweep.main, **sweep.columns, **axes, **masks, **texts}
-    with whole_file(path) as file:
-        np.savez_compressed(file, **arrays)
+    write_arrays(path, {"values": sweep.main, **sweep.columns, **axes, **masks, **texts}, replace=replace)
 
 
-def write_csv(sweep: Sweep, path: Path) -> None:
+def write_csv(sweep: Sweep, path: Path, *, replace: bool) -> None:
     """Write a sweep as a table."""
-    with whole_file(path) as file:
+    with whole_file(path, replace=replace) as file:
         text = io.TextIOWrapper(file, encoding="utf-8", newline="")
         text.write(f"# sweep of {sweep.of}\n# {origin(sweep)}\n")
         csv.writer(text).writerows(_rows(sweep))
@@ -82,12 +82,30 @@ def _cells(column: Array) -> list[Any]:
     return ["" if x != x else x for x in values]
 
 
+def write_netcdf(sweep: Sweep, path: Path, *, replace: bool) -> None:
+    """Write a sweep as a netCDF file."""
+    refuse_existing(path, replace)
+    data = dataset(sweep)
+    with TemporaryDirectory() as folder, _extra_needed():
+        import h5netcdf
+
+        file = Path(folder, "sweep.nc")
+        data.to_netcdf(file, engine=h5netcdf.__name__)
+        write_whole(path, file.read_bytes(), replace=replace)
+
+
+@contextmanager
+def _extra_needed() -> Iterator[None]:
+    try:
+        yield
+    except ImportError as error:
+        raise ProblemError(f"{error.name} is not installed: pip install 'yawdesign[xarray]'") from None
+
+
 def dataset(sweep: Sweep) -> "xarray.Dataset":
     """Return a sweep as an `xarray.Dataset`."""
-    try:
+    with _extra_needed():
         import xarray
-    except ImportError:
-        raise ProblemError("xarray is not installed: pip install 'yawdesign[xarray]'") from None
     names = [axis.name for axis in sweep.axes]
     coordinates = {
         axis.name: (axis.name, axis.values, {"units": axis.unit, "long_name": ROWS[axis.name].meaning})

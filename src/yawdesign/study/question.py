@@ -20,6 +20,12 @@ QUANTITIES = {
     "design": "N·s/m",
     "critical_speed": "m/s",
 }
+# The same for everything that stands in a column of its own.
+UNITS = {
+    **QUANTITIES,
+    **{"C_s": "N·s/m", "C_su": "N·s/m", "omega": "rad/s"},
+    **dict.fromkeys(("count", "unstable_roots", "status", "rotational_resistance"), "-"),
+}
 # What must be known at every point, beside the parameters.
 NEEDS_DAMPING = ("stable", "decay_rate", "damping_ratio", "critical_speed")
 SEARCHED = (10 / 3.6, 600 / 3.6)  # for critical speeds, where the problem gives no range [m/s]

@@ -17,9 +17,10 @@ from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import unknown_key
 from yawdesign.problem.result import Result, plain
 from yawdesign.study.axes import Axis, shape
-from yawdesign.study.question import QUANTITIES, Array
+from yawdesign.study.keeping import KeptFile
+from yawdesign.study.question import QUANTITIES, UNITS, Array
 from yawdesign.study.request import Request
-from yawdesign.study.store import Store, save
+from yawdesign.study.store import MASKS, Store
 
 if TYPE_CHECKING:
     import xarray
@@ -27,11 +28,6 @@ if TYPE_CHECKING:
 Mask = NDArray[np.bool_]
 
 MAIN = {"design": "C_s"}  # the column that `values` shows, where it is not named after the quantity
-UNITS = {
-    **QUANTITIES,
-    **{"C_s": "N·s/m", "C_su": "N·s/m", "omega": "rad/s"},
-    **dict.fromkeys(("count", "unstable_roots", "status", "rotational_resistance"), "-"),
-}
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -147,46 +143,69 @@ class Sweep(Result):
 
         return dataset(self)
 
-    def to_csv(self, path: str | PathLike[str]) -> None:
+    def to_csv(self, path: str | PathLike[str], *, replace: bool = False) -> None:
         """Write a table with one line for each point; lines with # before it tell where it comes from.
 
         Parameters
         ----------
         path : path
-            Name of the file; it is replaced as a whole or not at all.
+            Name of the file; it is there as a whole or not at all.
+        replace : bool
+            Whether a file that is there is replaced.
+
+        Raises
+        ------
+        ProblemError
+            If there is a file that may not be replaced.
+        OSError
+            If it cannot be written.
         """
         from yawdesign.study.files import write_csv
 
-        write_csv(self, Path(path))
+        write_csv(self, Path(path), replace=replace)
 
-    def to_npz(self, path: str | PathLike[str]) -> None:
+    def to_npz(self, path: str | PathLike[str], *, replace: bool = False) -> None:
         """Write arrays that `numpy.load` reads: ``values`` and all columns, ``axis_NAME``, masks, units, provenance.
 
-        Parameters
-        ----------
-        path : path
-            Name of the file; it is replaced as a whole or not at all.
+        Parameters, errors: as in `to_csv`.
         """
         from yawdesign.study.files import write_npz
 
-        write_npz(self, Path(path))
+        write_npz(self, Path(path), replace=replace)
+
+    def to_netcdf(self, path: str | PathLike[str], *, replace: bool = False) -> None:
+        """Write what `to_xarray` returns as a netCDF file.
+
+        Parameters, errors: as in `to_csv`.
+        """
+        from yawdesign.study.files import write_netcdf
+
+        write_netcdf(self, Path(path), replace=replace)
 
     def keep(self, path: str | PathLike[str]) -> None:
-        """Write what is finished of an interrupted sweep, for ``resume=path``.
+        """Write what is finished, of an interrupted sweep say, for ``resume=path``.
 
         Parameters
         ----------
         path : path
-            Name of the file.
+            Name of the file. What it keeps of the same sweep stays in it.
+
+        Raises
+        ------
+        ProblemError
+            If there is a file that does not belong to this sweep, or this is a part of one.
+        OSError
+            If it cannot be written.
         """
         if self.finished.size != self.request.size:
             raise ProblemError("this is a part of a sweep: keep the whole one")
         store = Store(self.request.size)
-        for name in ("finished", "recomputed", "unverified"):
-            setattr(store, name, getattr(self, name).ravel())
+        for name in MASKS:
+            setattr(store, name, getattr(self, name).ravel().copy())
         several = len(self.axes)
-        store.columns = {n: x.reshape(store.size, *x.shape[several:]) for n, x in self.columns.items()}
-        save(Path(path), self.request, store)
+        if store.finished.any():
+            store.columns = {n: x.reshape(store.size, *x.shape[several:]).copy() for n, x in self.columns.items()}
+        KeptFile(Path(path), self.request).write(store)
 
     def __repr__(self) -> str:
         grid = " x ".join(f"{axis.name} ({axis.values.size})" for axis in self.axes)

@@ -1,21 +1,12 @@
-"""Where the answers of a sweep are gathered, block by block, and kept in a file until all are there."""
+"""Where the answers of a sweep are gathered, block by block."""
 
-import json
-import zipfile
 from collections.abc import Iterator
-from dataclasses import asdict
-from hashlib import sha256
-from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from yawdesign import __version__
-from yawdesign.problem import ProblemError
-from yawdesign.problem.result import plain
 from yawdesign.study.question import Answers, Array
-from yawdesign.study.request import Request
-from yawdesign.study.writing import whole_file
 
 MASKS = ("finished", "recomputed", "unverified")
 
@@ -47,11 +38,23 @@ class Store:
         self.unverified[start:stop] = answers.unverified
         self.finished[start:stop] = True
 
+    def add(self, other: "Store") -> None:
+        """Take over what another store of the same sweep has, and this one has not."""
+        for start, stop in _runs(other.finished & ~self.finished):
+            part = slice(start, stop)
+            columns = {name: x[part] for name, x in other.columns.items()}
+            self.put(start, Answers(columns, other.recomputed[part], other.unverified[part]))
+
     def missing(self, chunk: int) -> Iterator[tuple[int, int]]:
         """Yield start and stop of the blocks that have no answers yet, at most `chunk` points each."""
-        edges = np.flatnonzero(np.diff(self.finished, prepend=True, append=True))
-        for first, last in edges.reshape(-1, 2):
-            yield from ((start, min(start + chunk, int(last))) for start in range(int(first), int(last), chunk))
+        for first, last in _runs(~self.finished):
+            yield from ((start, min(start + chunk, last)) for start in range(first, last, chunk))
+
+
+def _runs(mask: NDArray[np.bool_]) -> Iterator[tuple[int, int]]:
+    """Yield start and stop of the parts in which a mask is true."""
+    edges = np.flatnonzero(np.diff(mask, prepend=False, append=False))
+    return ((int(first), int(last)) for first, last in edges.reshape(-1, 2))
 
 
 def _empty(kind: np.dtype[Any]) -> Any:
@@ -81,62 +84,3 @@ def _widened(column: Array | None, found: Array, size: int) -> Array:
     if column is not None:
         wider[(slice(None), *map(slice, column.shape[1:]))] = column
     return wider
-
-
-def identity(asked: Request) -> dict[str, Any]:
-    """Return what makes a sweep the same as another: two with the same identity have the same answers."""
-    problem = asked.problem.to_dict()
-    own = {f"the problem's {key}": problem[key] for key in problem if key != "title"}
-    axes = {f"axis {axis.name}": _digest(axis.values.tolist()) for axis in asked.axes}
-    question = _digest(plain(asdict(asked.task.question)))
-    order = [axis.name for axis in asked.axes]
-    mine = {"of": asked.of, "the axes": order, **axes, "hold": asked.task.hold, "the question": question}
-    return {**mine, **own, "the version of yawdesign": __version__}
-
-
-def _digest(data: Any) -> str:
-    return sha256(json.dumps(data).encode()).hexdigest()
-
-
-def save(path: Path, asked: Request, store: Store) -> None:
-    """Write what is finished into a file that `restore` reads."""
-    masks = {name: getattr(store, name) for name in MASKS}
-    columns = {f"column_{name}": column for name, column in store.columns.items()}
-    arrays: dict[str, Any] = {**masks, **columns, "identity": np.array(json.dumps(identity(asked)))}
-    with whole_file(path) as file:
-        np.savez_compressed(file, **arrays)
-
-
-def restore(path: Path, asked: Request) -> Store:
-    """Return the store that a file holds, an empty one if there is no file.
-
-    Raises
-    ------
-    ProblemError
-        If the file is no such file, or belongs to another sweep.
-    """
-    store = Store(asked.size)
-    if not path.exists():
-        return store
-    try:
-        with path.open("rb") as opened, np.load(opened, allow_pickle=False) as file:
-            arrays = {name: file[name] for name in file.files}
-        found = json.loads(str(arrays["identity"]))
-    except (ValueError, KeyError, EOFError, AttributeError, TypeError, zipfile.BadZipFile):
-        text = f"{path} is no unfinished sweep: give another name, or remove it to begin anew"
-        raise ProblemError(text) from None
-    _compare(path, found, identity(asked))
-    for name in MASKS:
-        setattr(store, name, arrays[name])
-    store.columns = {name.removeprefix("column_"): x for name, x in arrays.items() if name.startswith("column_")}
-    return store
-
-
-def _compare(path: Path, found: dict[str, Any], wanted: dict[str, Any]) -> None:
-    different = [key for key in wanted if found.get(key) != wanted[key]]
-    different += [key for key in found if key not in wanted]
-    if different:
-        raise ProblemError(
-            f"{path} belongs to another sweep: {', '.join(different)} {'differ' if len(different) > 1 else 'differs'}; "
-            "give another name, or remove it to begin anew"
-        )

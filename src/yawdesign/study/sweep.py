@@ -12,9 +12,11 @@ from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.running import SpeedRange
 from yawdesign.study.axes import Axis
 from yawdesign.study.chunks import as_executor, fill
+from yawdesign.study.keeping import KeptFile
 from yawdesign.study.request import Request, request
 from yawdesign.study.result import Sweep, gathered
-from yawdesign.study.store import Store, restore, save
+from yawdesign.study.stopping import held, request_to_stop
+from yawdesign.study.store import Store
 
 Progress = Callable[[str, float], None]
 Pairs = Iterable[tuple[str, Any]]
@@ -35,7 +37,7 @@ class IncompleteSweepError(RuntimeError):
     result : Sweep
         With NaN where there is no answer yet.
     interrupted : bool
-        Whether it was stopped from the keyboard.
+        Whether somebody stopped it: Ctrl-C, SIGTERM or a closed terminal.
     """
 
     def __init__(self, reason: str, remedy: str, result: Sweep, interrupted: bool) -> None:
@@ -93,7 +95,7 @@ def sweep(
     ProblemError
         With all that is wrong with the axes.
     IncompleteSweepError
-        If a worker died or Ctrl-C was pressed; it holds what was finished.
+        If a worker died, or on Ctrl-C, SIGTERM or a closed terminal; it holds what was finished.
 
     Examples
     --------
@@ -140,14 +142,21 @@ def answered(
         if kept:
             kept.save_at_times()
 
-    failed = fill(store, asked, executor, chunk, done)
-    if failed is not None:
-        result = gathered(asked, store, time.perf_counter() - begin)
-        stopped = isinstance(failed, KeyboardInterrupt)
-        raise IncompleteSweepError(_reason(store, failed), _remedy(kept), result, stopped) from failed
-    if kept:
-        kept.save()
-    return gathered(asked, store, time.perf_counter() - begin, _boundary(asked, executor))
+    with held():  # requests to stop wait, except where points are computed
+        boundary = None
+        try:
+            failed = fill(store, asked, executor, chunk, done)
+        finally:  # also when a program's own handler of signals has raised SystemExit
+            if kept:
+                kept.save()
+        if failed is None:
+            failed, boundary = _boundary(asked, executor)
+        failed = request_to_stop() or failed
+        result = gathered(asked, store, time.perf_counter() - begin, boundary)
+        if failed is not None:
+            stopped = isinstance(failed, KeyboardInterrupt)
+            raise IncompleteSweepError(_reason(store, failed), _remedy(store, kept), result, stopped) from failed
+        return result
 
 
 def _check_work(executor: Any, chunk: int | None) -> None:
@@ -163,8 +172,8 @@ class _Kept:
     def __init__(self, path: Path, asked: Request) -> None:
         if not path.absolute().parent.is_dir():
             raise ProblemError(f"resume: there is no folder {path.parent}")
-        self.path, self.asked = path, asked
-        self.store = restore(path, asked)
+        self.path, self.file, self.store = path, KeptFile(path, asked), Store(asked.size)
+        self.file.read(self.store)
         self.last = time.monotonic()
         self.trouble = ""
 
@@ -174,9 +183,11 @@ class _Kept:
 
     def save(self) -> bool:
         try:
-            save(self.path, self.asked, self.store)
-        except OSError as error:
-            text = f"{self.path} could not be written ({error.strerror}): make room; the sweep goes on and tries again"
+            self.file.write(self.store)
+        except (OSError, MemoryError, ProblemError) as error:
+            room = "" if isinstance(error, ProblemError) else ": make room"
+            why = f"{getattr(error, 'strerror', None) or error}{room}"
+            text = f"{self.path} could not be written ({why}); the sweep goes on and tries again"
             if not self.trouble:
                 warnings.warn(text, RuntimeWarning, stacklevel=2)
             self.trouble = text
@@ -187,29 +198,38 @@ class _Kept:
 
 
 def _reason(store: Store, failed: BaseException) -> str:
-    happened = "it was stopped" if isinstance(failed, KeyboardInterrupt) else f"{type(failed).__name__}: {failed}"
+    happened = f"{type(failed).__name__}: {failed}"
+    if isinstance(failed, KeyboardInterrupt):
+        happened = f"it was stopped ({failed})" if str(failed) else "it was stopped"
     return f"{store.finished.sum()} of {store.size} points are finished, then {happened.rstrip('.')}"
 
 
-def _remedy(kept: _Kept | None) -> str:
-    if kept and kept.save():
+def _remedy(store: Store, kept: _Kept | None) -> str:
+    if not store.finished.any():
+        return "There is nothing to keep"
+    if kept and not kept.trouble:
         return f"What is finished is in {kept.path}: the same sweep with resume={str(kept.path)!r} does the rest"
     name = str(kept.path) if kept else "FILE.npz"
     return f"Nothing finished is lost: .result has it, .result.keep({name!r}) writes it, resume={name!r} goes on"
 
 
-def _boundary(asked: Request, executor: Any) -> Sweep | None:
-    """Return all critical values, where a picture of the sweep needs them; whatever goes wrong, the sweep is done."""
+def _boundary(asked: Request, executor: Any) -> tuple[BaseException | None, Sweep | None]:
+    """Return all critical values, where a picture of the sweep needs them, and who stopped their computation.
+
+    Whatever goes wrong here, the sweep itself is finished.
+    """
     axes = _axes_of_boundary(asked)
     if len(axes) != 1 or axes[0].values.size > MOST_DRAWN:
-        return None
+        return None, None
     if axes[0].name != "v" and isinstance(asked.problem.speed, SpeedRange):
-        return None  # each speed has its own
+        return None, None  # each speed has its own
     try:
-        return answered(asked.about("critical", axes), executor=executor)
-    except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 - no fault may cost the points that are finished
+        return None, answered(asked.about("critical", axes), executor=executor)
+    except Exception as error:  # noqa: BLE001 - no fault may cost the points that are finished
+        if isinstance(error, IncompleteSweepError) and error.interrupted:
+            return error.__cause__, None
         _say_without_lines(error)
-        return None
+        return None, None
 
 
 def _say_without_lines(error: BaseException) -> None:

@@ -16,7 +16,7 @@ from yawdesign.output.fmi.variables import variables
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.result import Result
 from yawdesign.stability.verdict import given_damping
-from yawdesign.study.writing import write_whole
+from yawdesign.study.writing import refuse_existing, write_whole
 
 REMEDY = "the FMU holds its C code only: before it runs it must be compiled, such as with `fmpy compile`"
 
@@ -75,12 +75,11 @@ def write_fmu(problem: Problem, path: str | Path, *, replace: bool = False) -> F
     path = Path(path)
     if path.suffix != ".fmu":
         raise ProblemError(f"{path.name} is not the name of an FMU: it must end in .fmu")
-    if path.exists() and not replace:
-        raise ProblemError(f"{path} exists: choose another name, or ask for it to be replaced")
+    refuse_existing(path, replace)
     texts = _texts(problem)
     library, message = _library(texts)
     place = f"binaries/{platform_name()}/{IDENTIFIER}{library_suffix()}"
-    write_whole(path, _archive({**texts, **({place: library} if library else {})}))
+    write_whole(path, _archive({**texts, **({place: library} if library else {})}), replace=replace)
     return Fmu(str(path), platform_name() if library else None, message)
 
 

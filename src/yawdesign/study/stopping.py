@@ -1,0 +1,118 @@
+"""Requests to stop (Ctrl-C, SIGTERM, a closed terminal), which wait where they would cost finished work.
+
+Inside `held` they wait; inside `let_through` they end the work at once with `Stopped`. Both may stand inside each
+other. Only the main thread gets signals, so in other threads both do nothing. A program's own handlers stay.
+"""
+
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from typing import Any
+
+SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name))
+USUAL = (signal.SIG_DFL, signal.default_int_handler)
+
+
+class Stopped(KeyboardInterrupt):
+    """Somebody asked to stop.
+
+    Parameters
+    ----------
+    number : int
+        The signal.
+    """
+
+    def __init__(self, number: int) -> None:
+        super().__init__(signal.Signals(number).name)
+        self.number = number
+
+
+class _Requests:
+    """What was asked, and whether it may be obeyed now."""
+
+    def __init__(self) -> None:
+        self.open = True
+        self.waiting: int | None = None
+        self.watched = False
+
+    def __call__(self, number: int, frame: Any) -> None:
+        self.waiting = number
+        self.obey()
+
+    def obey(self) -> None:
+        if self.open and (error := self.taken()):
+            raise error
+
+    def taken(self) -> Stopped | None:
+        number, self.waiting = self.waiting, None
+        return None if number is None else Stopped(number)
+
+
+_REQUESTS = _Requests()
+
+
+@contextmanager
+def watched() -> Iterator[None]:
+    """Let SIGTERM and a closed terminal end the block like Ctrl-C does: with an exception, so that it can tidy up."""
+    if _REQUESTS.watched or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = {number: handler for number in SIGNALS if (handler := signal.getsignal(number)) in USUAL}
+    try:
+        _REQUESTS.watched = True
+        for number in before:
+            signal.signal(number, _REQUESTS)
+        yield
+    finally:
+        _REQUESTS.open = False
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        _REQUESTS.watched, _REQUESTS.waiting, _REQUESTS.open = False, None, True
+
+
+@contextmanager
+def held() -> Iterator[Callable[[], AbstractContextManager[None]]]:
+    """Let requests to stop wait until the block is done; give a block inside which they do what they do outside."""
+    outside = _REQUESTS.open
+    with _obeying(False):
+        yield lambda: _obeying(outside)
+
+
+@contextmanager
+def let_through() -> Iterator[None]:
+    """Let requests to stop end the block, also one that has waited.
+
+    Raises
+    ------
+    Stopped
+        When there is one.
+    """
+    with _obeying(True):
+        yield
+
+
+@contextmanager
+def _obeying(obey: bool) -> Iterator[None]:
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    with watched():
+        before, _REQUESTS.open = _REQUESTS.open, obey
+        try:
+            _REQUESTS.obey()
+            yield
+        finally:
+            _REQUESTS.open = before
+        _REQUESTS.obey()
+
+
+def ignore_requests() -> None:
+    """Do nothing any more when somebody asks to stop: the program is at its end."""
+    for number in SIGNALS:
+        signal.signal(number, signal.SIG_IGN)
+
+
+def request_to_stop() -> Stopped | None:
+    """Return the request that waits, if there is one; it waits no longer."""
+    return _REQUESTS.taken()
