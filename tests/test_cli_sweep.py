@@ -4,9 +4,11 @@ import errno
 import functools
 import importlib
 import json
+import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -289,6 +291,21 @@ def test_a_request_to_stop_loses_no_finished_sweep(monkeypatch, where, name, res
     again = ["--force"] if "--force" in result.stderr else []
     run(*CURVE, "--csv", "x.csv", "--npz", "x.npz", "--resume", kept, *again)
     assert len(np.load("x.npz")["values"]) == 5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_request_to_a_group_of_processes(number, tmp_path):
+    """As from a terminal or a batch system; the command ends, though work waits for the other processes."""
+    grid = ("--of", "critical", "--over", "f_m=0.5:8:1500", "--over", "v=150 km/h:450 km/h:400")
+    command = [sys.executable, "-m", "yawdesign.cli", "sweep", str(PROBLEM), *grid, "--jobs", "2", "--resume", "k.npz"]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    time.sleep(10)
+    os.killpg(process.pid, number)
+    told = process.communicate(timeout=60)[1]
+    assert process.returncode == 128 + number
+    assert "then it was stopped" in told
+    assert "Traceback" not in told
 
 
 def test_the_terminal_is_closed(monkeypatch):

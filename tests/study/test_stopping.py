@@ -31,6 +31,21 @@ def test_let_through_ends_the_work_at_once():
     assert done == [None]
 
 
+def test_a_further_request_does_not_disturb_what_the_first_one_ends():
+    ended = []
+
+    def work():
+        with let_through():
+            try:
+                signal.raise_signal(signal.SIGTERM)
+            finally:
+                ended.append(signal.raise_signal(signal.SIGTERM))
+
+    with pytest.raises(Stopped), watched():
+        work()
+    assert ended == [None]
+
+
 def test_a_request_can_be_taken():
     with held():
         assert request_to_stop() is None

@@ -149,14 +149,21 @@ def workers(jobs: int = 1, dask: str | None = None) -> Iterator[Any]:
             yield client
     elif jobs > 1:
         with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_leave_interrupts) as executor:
+            if (queue := getattr(executor, "_call_queue", None)) is not None:
+                queue.cancel_join_thread()  # Python would not end while work for dead processes waits in a full pipe
             yield executor
     else:
         yield None
 
 
 def _leave_interrupts() -> None:
-    """Leave Ctrl-C to the first process, which keeps what the others have finished."""
+    """Leave requests to stop to the first process, which keeps what the others have finished.
+
+    A terminal and most batch systems send them to a group of processes.
+    """
     signal(SIGINT, SIG_IGN)
+    if hasattr(os, "setpgrp"):
+        os.setpgrp()
 
 
 def _client(address: str) -> Any:

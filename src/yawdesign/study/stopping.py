@@ -42,6 +42,7 @@ class _Requests:
 
     def obey(self) -> None:
         if self.open and (error := self.taken()):
+            self.open = False  # a further request does not disturb what this one ends
             raise error
 
     def taken(self) -> Stopped | None:
@@ -65,10 +66,12 @@ def watched() -> Iterator[None]:
             signal.signal(number, _REQUESTS)
         yield
     finally:
-        _REQUESTS.open = False
-        for number, handler in before.items():
-            signal.signal(number, handler)
-        _REQUESTS.watched, _REQUESTS.waiting, _REQUESTS.open = False, None, True
+        try:
+            _REQUESTS.open = False
+        finally:  # also after a request at the very end of the block
+            for number, handler in before.items():
+                signal.signal(number, handler)
+            _REQUESTS.watched, _REQUESTS.waiting, _REQUESTS.open = False, None, True
 
 
 @contextmanager
