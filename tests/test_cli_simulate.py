@@ -79,12 +79,16 @@ def test_measured_and_own_tracks(tmp_path):
         (["--start", "moving"], "is not one of"),
         (["--csv", "x.txt"], "must end in .csv"),
         (["--plot", "/nowhere/x.png"], "there is no folder"),
-        (["--response", "yb", "--plot", "x.png", "--duration", "2 s"], "did you mean y_b"),
+        (["--response", "yb", "--plot", "x.png", "--duration", "2 s"], "--response: yb is not one of"),
+        (["--response", "y_b"], "--response: chooses what --plot draws"),
+        (["--track", "/dev/zero"], "/dev/zero: error: cannot be read: it is a device or a pipe"),
+        (["--csv", "none/x.csv"], "there is no folder none"),
     ],
 )
 def test_bad_input(options, message, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("yawdesign.response.simulate.run", None)  # no work begins
     result = run(TABLE_1, *options)
-    assert result.exit_code == 2
+    assert result.exit_code == 2, result.output
     assert message in result.stderr
     assert list(tmp_path.iterdir()) == []

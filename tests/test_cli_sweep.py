@@ -108,6 +108,9 @@ def test_exit_code_3_where_a_point_is_not_verified(monkeypatch):
         (("--over", "f_m=1:2:3", "--hold", "both"), ["hold"]),
         (("--over", "f_m=1:2:3", "--csv", "none/x.csv", "--plot", "x.bmp"), ["no folder none", "x.bmp"]),
         (("--over", "f_m=1:2:3", "--plot", "x.png", "--over", "v=1:2:3", "--over", "a=1:2:3"), ["one or two axes"]),
+        (("--over", "v=80", "--plot", "x.png"), ["a single point has no picture"]),
+        (("--over", "v=70:80:1"), ["v: one value cannot be both 70 and 80"]),
+        (("--over", "v=70:80:2", "--csv", ".", "--npz", ".."), ["--csv: . is a folder", "--npz: .. is a folder"]),
         (("--over", "f_m=1:2:3", "--jobs", "2", "--dask", "tcp://127.0.0.1:1"), ["choose one"]),
         (("--over", "v=1:99:100000", "--over", "a=1:2:100000", "--over", "b=0.7:0.8:100000"), ["1e+15 points"]),
         (("--of", "stable"), ["Missing option"]),
@@ -157,11 +160,11 @@ def test_what_is_finished_is_kept(monkeypatch, error, code, resume):
     expected = answer(*CURVE)
     broken(monkeypatch, error)
     done = run(*CURVE, *resume, code=code)
-    name = "mine.npz" if resume else "table1.sweep.npz"
+    name, folder = "mine.npz" if resume else "table1.sweep.npz", Path.cwd()
     assert "2 of 5 points are finished" in done.stderr
     assert f"repeat the command with --resume {name}" in done.stderr
     monkeypatch.undo()
-    monkeypatch.chdir(Path(name).absolute().parent)
+    monkeypatch.chdir(folder)
     assert answer(*CURVE, "--resume", name)["values"] == [pytest.approx(x, rel=1e-12) for x in expected["values"]]
 
 
@@ -187,6 +190,27 @@ def test_a_full_disk_keeps_the_answer_elsewhere(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(chunks, "answer", None)  # nothing is computed again
     run(*CURVE, "--csv", "x.csv", "--resume", "table1.sweep.npz")
+
+
+def test_matplotlib_that_does_not_start_is_noticed_before_the_work(monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    monkeypatch.setattr(chunks, "answer", None)
+    assert "Matplotlib does not start" in run(*CURVE, "--plot", "x.png", code=2).stderr
+
+
+@pytest.mark.parametrize("axis", ["v=300 km/h", "v=300 km/h:300 km/h:1"])
+def test_an_axis_of_one_value(axis, tmp_path):
+    whole = answer("--of", "critical", "--over", "f_m=2:4:5", "--over", axis)
+    assert whole["axes"][1]["values"] == [pytest.approx(300 / 3.6)]
+    assert [row[0] for row in whole["values"]] == answer(*CURVE)["values"]
+    files = ("--csv", "x.csv", "--npz", "x.npz", "--plot", "x.png")
+    done = run("--of", "stable", "--over", axis, "--over", "C_s=1e4:1e6:9:log", *files)
+    assert len(list(tmp_path.iterdir())) == 3
+    assert "over v" in done.stdout
+    done = run("--of", "C_sl", "--over", axis, "--csv", "y.csv", "--npz", "y.npz")
+    assert "300 km/h │ 90.7029 kN·s/m" in done.stdout
+    assert "..." not in done.stdout
+    assert len(Path("y.csv").read_text().splitlines()) == 4
 
 
 def test_a_disk_without_any_room(monkeypatch, tmp_path):
@@ -311,10 +335,15 @@ def test_an_error_of_any_kind_while_a_file_is_written_keeps_the_sweep(monkeypatc
 
     monkeypatch.setattr("yawdesign.output.study_files.draw", fails)
     done = RUN.invoke(app, ["sweep", str(PROBLEM), *CURVE, "--plot", "x.png", "--csv", "x.csv"])
-    assert isinstance(done.exception, RuntimeError)
-    assert "no such font" in done.stderr
+    assert done.exit_code == 3
+    assert "the results could not be shown: RuntimeError: no such font" in done.stderr
     assert "repeat the command with --resume table1.sweep.npz --force" in done.stderr
     assert sorted(path.name for path in tmp_path.iterdir()) == ["table1.sweep.npz", "x.csv"]
+    monkeypatch.undo()
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(chunks, "answer", None)  # nothing is computed again
+    run(*CURVE, "--plot", "x.png", "--resume", "table1.sweep.npz")
+    assert Path("x.png").exists()
 
 
 def test_outputs_replace_nothing_unasked(tmp_path):

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from yawdesign.output.streams import ANSWER, discard, open_streams, tell, write_answer
+
 if TYPE_CHECKING:
     from yawdesign.problem import Problem
 
@@ -39,13 +41,13 @@ def _mistakes_shown() -> Iterator[None]:
         with _warnings_told(UnitWarning):
             yield
     except ProblemError as error:
-        _tell(str(error))
+        tell(str(error))
         raise typer.Exit(BAD_INPUT) from None
     except OSError as error:
-        _tell(f"error: {error.strerror or error}" + (f": {error.filename}" if error.filename else ""))
+        tell(f"error: {_reason(error)}")
         raise typer.Exit(BAD_INPUT) from None
     except KeyboardInterrupt as error:
-        _tell("interrupted")
+        tell("interrupted")
         raise typer.Exit(_stopped(error)) from None
 
 
@@ -54,9 +56,12 @@ def _stopped(error: BaseException | None) -> int:
     return STOPPED + getattr(error, "number", SIGINT)
 
 
-def _tell(text: str) -> None:
-    """Write a message to standard error."""
-    sys.stderr.write(text + "\n")
+def _reason(error: Exception) -> str:
+    if not isinstance(error, OSError):
+        return f"{type(error).__name__}: {error}"
+    if error.filename == ANSWER:
+        return f"{ANSWER} could not be written: {error.strerror}"
+    return (error.strerror or str(error)) + (f": {error.filename}" if error.filename else "")
 
 
 def _read(path: str) -> "Problem":
@@ -67,17 +72,17 @@ def _read(path: str) -> "Problem":
     if problem is None:
         raise ProblemError(diagnostics)
     for diagnostic in diagnostics:
-        _tell(diagnostic.render())
+        tell(diagnostic.render())
     return problem
 
 
 def _show(result: Any, as_json: bool, tables: str, home: str = "yawdesign.output.tables") -> None:
-    from yawdesign.output.tables import show
+    from yawdesign.output.tables import rendered
 
     if as_json:
-        typer.echo(json.dumps(result.to_dict(), indent=2, allow_nan=False))
+        write_answer(json.dumps(result.to_dict(), indent=2, allow_nan=False) + "\n")
     else:
-        show(getattr(import_module(home), tables)(result))
+        write_answer(rendered(getattr(import_module(home), tables)(result)))
 
 
 def _code(checked: bool, feasible: bool) -> int:
@@ -154,25 +159,25 @@ def sweep(
         from yawdesign.output.study_files import Outputs
         from yawdesign.problem.stopping import held
         from yawdesign.study.chunks import workers
+        from yawdesign.study.request import request
 
-        outputs = Outputs.checked(file, over, csv=csv, npz=npz, plot=plot, resume=resume, force=force)
-        axes = [(name, values) for name, _, values in (text.partition("=") for text in over)]
+        asked = request(problem, of, [(name, values) for name, _, values in (x.partition("=") for x in over)], hold)
+        outputs = Outputs.checked(file, asked.axes, csv=csv, npz=npz, plot=plot, resume=resume, force=force)
         with workers(jobs, dask) as executor, held():
-            options = {"hold": hold, "executor": executor, "resume": resume}
-            result = _swept(problem, of, axes, outputs, options)
+            result = _swept(asked, outputs, {"executor": executor, "resume": resume})
             _write_sweep(result, outputs, as_json)
     raise typer.Exit(_code(not result.unverified.any(), bool(result.good.any())))
 
 
-def _swept(problem: "Problem", of: str, axes: Any, outputs: Any, options: dict[str, Any]) -> Any:
+def _swept(asked: Any, outputs: Any, options: dict[str, Any]) -> Any:
     """Return a sweep that came to its end; of another one what is finished is kept."""
-    from yawdesign.study.sweep import IncompleteSweepError, swept
+    from yawdesign.study.sweep import IncompleteSweepError, answered
 
     try:
         with _progress() as progress, _warnings_told():
-            return swept(problem, of, axes, progress=progress, **options)
+            return answered(asked, progress=progress, **options)
     except IncompleteSweepError as error:
-        _tell(outputs.rescued(error.result, error.reason))
+        tell(outputs.rescued(error.result, error.reason))
         raise typer.Exit(_stopped(error.__cause__) if error.interrupted else SOLVER_FAILED) from None
 
 
@@ -186,35 +191,34 @@ def _write_sweep(result: Any, outputs: Any, as_json: bool) -> None:
         with let_through():
             _show_sweep(result, as_json)
     except KeyboardInterrupt as error:
-        _tell(outputs.rescued(result, f"it was stopped ({error})"))
+        tell(outputs.rescued(result, f"it was stopped ({error})"))
         raise typer.Exit(_stopped(error)) from None
-    except Exception as error:
-        name, why = getattr(error, "filename", None), getattr(error, "strerror", None)
-        _tell(outputs.rescued(result, f"{name or 'the answer'} could not be written: {why or error}"))
-        if isinstance(error, (OSError, ProblemError)):
-            raise typer.Exit(BAD_INPUT) from None
-        raise
+    except Exception as error:  # noqa: BLE001 - whatever it is, it may not cost the sweep
+        tell(outputs.rescued(result, _unwritten(error)))
+        code = BAD_INPUT if isinstance(error, (OSError, ProblemError)) else SOLVER_FAILED
+        raise typer.Exit(code) from None
 
 
 def _show_sweep(result: Any, as_json: bool) -> None:
     from yawdesign.output import study_tables, tables
 
-    try:
-        if as_json:
-            typer.echo(json.dumps(result.to_dict(), allow_nan=False))
-        else:
-            tables.show(study_tables.sweep_tables(result))
-        sys.stdout.flush()
-    except OSError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what cannot be written is not tried again at the end
-        raise
+    if as_json:
+        write_answer(json.dumps(result.to_dict(), allow_nan=False) + "\n")
+    else:
+        write_answer(tables.rendered(study_tables.sweep_tables(result)))
+
+
+def _unwritten(error: Exception) -> str:
+    if isinstance(error, OSError):
+        return f"{error.filename or ANSWER} could not be written: {error.strerror}"
+    return f"the results could not be shown: {type(error).__name__}: {error}"
 
 
 @contextmanager
 def _warnings_told(kind: type[Warning] = RuntimeWarning) -> Iterator[None]:
     """Show warnings as messages."""
     with warnings.catch_warnings():
-        warnings.showwarning = lambda message, *_: _tell(f"warning: {message}")
+        warnings.showwarning = lambda message, *_: tell(f"warning: {message}")
         warnings.simplefilter("always", kind)
         yield
 
@@ -247,19 +251,20 @@ def simulate(
     csv: Annotated[str | None, typer.Option(help="Write the time histories as text.")] = None,
     npz: Annotated[str | None, typer.Option(help="Write the time histories as NumPy arrays.")] = None,
     plot: Annotated[str | None, typer.Option(help="Draw the frame's motion to a .png, .pdf or .svg file.")] = None,
-    response: Annotated[str, typer.Option(help="What --plot draws.")] = "y_b",
+    response: Annotated[str | None, typer.Option(help="What --plot draws; y_b.")] = None,
     force: Force = False,
 ) -> None:
     """Run the bogie over a track: RMS, peaks, whether amplitudes settle, and what its yaw damper has to do."""
-    from yawdesign.output import histories
-    from yawdesign.output.plots import PICTURES, write_picture
-    from yawdesign.output.targets import Target, checked_targets
-
     with _mistakes_shown():
+        from yawdesign.output import histories, plots
+        from yawdesign.output.targets import Target, checked_targets
+
         tables = Target("--csv", csv, (".csv",), force), Target("--npz", npz, (".npz",), force)
-        targets = (*tables, Target("--plot", plot, PICTURES, force))
+        targets = (*tables, Target("--plot", plot, plots.PICTURES, force))
         to_csv, to_npz, to_plot = checked_targets(targets, [file, track])
+        plots.check_pictures(to_plot)
         problem = _read(file)
+        _check_response(problem, response, plot)
         with _progress() as progress:
             from yawdesign.response.simulate import simulate as run
             from yawdesign.response.tracks import shaped
@@ -278,15 +283,28 @@ def simulate(
                 progress=progress,
             )
         if to_plot:
-            from yawdesign.output.response_plots import simulation
-
-            write_picture(simulation(result, response=response), to_plot, replace=force)
+            plots.write_picture(plots.plot(result, response=response or "y_b"), to_plot, replace=force)
         if to_csv:
             histories.write_csv(result, to_csv, replace=force)
         if to_npz:
             histories.write_npz(result, to_npz, replace=force)
         _show(result, as_json, "simulation_tables", "yawdesign.output.response_tables")
     raise typer.Exit(_code(result.checked, result.settles))
+
+
+def _check_response(problem: "Problem", response: str | None, plot: str | None) -> None:
+    from yawdesign.problem import ProblemError
+    from yawdesign.problem.table import as_choice
+    from yawdesign.response.simulate import response_names
+
+    if response is None:
+        return
+    if not plot:
+        raise ProblemError("--response: chooses what --plot draws: give --plot too")
+    try:
+        as_choice(response, response_names(problem))
+    except ProblemError as error:
+        raise error.under("--response") from None
 
 
 @app.command()
@@ -296,7 +314,9 @@ def modes(
         str, typer.Option(metavar="NAME=LOW:HIGH:N[:log]", help="Follow the modes, such as 'v=50 km/h:450 km/h:80'.")
     ] = "",
     plot: Annotated[str, typer.Option(metavar="FILE", help="Draw the mode, or with --over the paths.")] = "",
-    of: Annotated[str, typer.Option(help="With --over: root_locus, damping_ratio or frequency.")] = "root_locus",
+    of: Annotated[
+        str, typer.Option(help="What --plot draws with --over: root_locus (default), damping_ratio or frequency.")
+    ] = "",
     animate: Annotated[str, typer.Option(metavar="MODE", help="Which mode is drawn; the slowest if not given.")] = "",
     to: Annotated[str, typer.Option(metavar="FILE", help="Show the mode in motion: a .gif or .svg file.")] = "",
     force: Force = False,
@@ -304,29 +324,47 @@ def modes(
 ) -> None:
     """Show all modes by name: frequency, damping, what takes part; follow them over speed or any parameter."""
     with _mistakes_shown():
-        from yawdesign.output.plots import ANIMATIONS, PICTURES, write_picture
+        from yawdesign.output import plots
         from yawdesign.output.targets import Target, checked_targets
-        from yawdesign.problem import ProblemError
 
-        pictures = Target("--plot", plot, PICTURES, force), Target("--to", to, ANIMATIONS, force)
+        pictures = Target("--plot", plot, plots.PICTURES, force), Target("--to", to, plots.ANIMATIONS, force)
         to_plot, to_animate = checked_targets(pictures, [file])
+        plots.check_pictures(to_plot, to_animate)
+        _check_modes(over=over, plot=plot, of=of, animate=animate, to=to)
         problem = _read(file)
-        if over and (to or animate):
-            raise ProblemError("--animate and --to show a mode at one place: leave out --over")
         if over:
             result: Any = import_module("yawdesign.response.following").follow_modes(problem, **_axis(over))
         else:
             result = import_module("yawdesign.response.modes").modes(problem)
         if to_plot:
-            from yawdesign.output.plots import plot as draw
-
-            options: dict[str, Any] = {"of": of} if over else {"mode": animate or None}
-            write_picture(draw(result, **options), to_plot, replace=force)
+            options: dict[str, Any] = {"of": of or "root_locus"} if over else {"mode": animate or None}
+            plots.write_picture(plots.plot(result, **options), to_plot, replace=force)
         if to_animate:
             moving = import_module("yawdesign.output.animation").animate
             moving(result, to_animate, mode=animate or None, replace=force)
         _show(result, as_json, "followed_tables" if over else "modes_tables", "yawdesign.output.mode_tables")
     raise typer.Exit(_code(result.checked, bool(over) or result.stable))
+
+
+def _check_modes(*, over: str, plot: str, of: str, animate: str, to: str) -> None:
+    """Check that every option has something to act on."""
+    from yawdesign.output.mode_plots import QUANTITIES
+    from yawdesign.problem import ProblemError
+    from yawdesign.problem.diagnostics import Mistakes
+    from yawdesign.problem.table import as_choice
+
+    mistakes = Mistakes()
+    with mistakes.under("--of"):
+        as_choice(of or QUANTITIES[0], QUANTITIES)
+        if of and not (over and plot):
+            raise ProblemError("chooses what --plot draws with --over: give both")
+    with mistakes.under("--animate"):
+        if animate and not (plot or to):
+            raise ProblemError("chooses which mode --plot or --to shows: give one of them")
+    with mistakes.under("--over"):
+        if over and (to or animate):
+            raise ProblemError("--animate and --to show a mode at one place: leave out --over")
+    mistakes.report()
 
 
 def _axis(text: str) -> dict[str, Any]:
@@ -354,7 +392,7 @@ def _progress() -> Iterator[Any]:
     if not console.is_terminal:
         yield lambda text, part: None
         return
-    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
     with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("starting", total=1.0)
         yield lambda text, part: bar.update(task, description=text, completed=part)
@@ -384,7 +422,7 @@ def export(
 
         result = write(problem, to, inputs=inputs, only=only, formats=formats, prefix=prefix, force=force)
         for note in result.notes:
-            _tell(f"note: {note}")
+            tell(f"note: {note}")
         _show(result, as_json, "export_tables")
 
 
@@ -409,7 +447,7 @@ def new(
         write_whole(path, starter(kind).encode(), replace=force)
         if path.is_file():
             _write_schema(path.with_name(SCHEMA_FILE), force)
-    typer.echo(f"wrote {file}; next: yawdesign optimise {file}")
+        write_answer(f"wrote {file}; next: yawdesign optimise {file}\n")
 
 
 def _write_schema(path: Path, force: bool) -> None:
@@ -420,7 +458,7 @@ def _write_schema(path: Path, force: bool) -> None:
     if not path.exists() or force:
         write_whole(path, content, replace=force)
     elif path.read_bytes() != content:
-        _tell(f"note: {path} was there and is kept; it is not the schema of this version, which --force puts there")
+        tell(f"note: {path} was there and is kept; it is not the schema of this version, which --force puts there")
 
 
 @app.command()
@@ -428,7 +466,7 @@ def check(file: ProblemFile) -> None:
     """List every mistake of a problem file, and doubtful values."""
     with _mistakes_shown():
         _read(file)
-        typer.echo(f"{file}: no errors")
+        write_answer(f"{file}: no errors\n")
 
 
 @app.command()
@@ -456,10 +494,9 @@ def _version(
 
 
 def main() -> None:
-    """Run the command line; Ctrl-C and SIGTERM end it without a traceback."""
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="replace")  # a console without µ or · shows ? and goes on
+    """Run the command line; no request to stop, and no answer that cannot be written, ends it with a traceback."""
+    open_streams()
+    os.environ["MPLBACKEND"] = "agg"  # pictures are files: no window, whatever a user has set
     from yawdesign.problem.stopping import ignore_requests, watched
 
     try:
@@ -467,8 +504,12 @@ def main() -> None:
             app()
     except KeyboardInterrupt as error:
         ignore_requests()
-        _tell("interrupted")
+        tell("interrupted")
         sys.exit(_stopped(error))
+    except OSError as error:  # of the texts that the library of the command line writes itself, such as --help
+        discard(sys.stdout)
+        tell(f"error: {ANSWER} could not be written: {error.strerror}")
+        sys.exit(BAD_INPUT)
 
 
 if __name__ == "__main__":

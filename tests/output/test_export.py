@@ -277,6 +277,14 @@ def test_mistakes_are_exit_code_2(tmp_path, options, message):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_place_is_looked_at_before_the_work(tmp_path, monkeypatch):
+    monkeypatch.setattr("yawdesign.output.export.write.functions", None)
+    (tmp_path / "mine").write_text("")
+    for place, message in ((tmp_path / "no" / "such", "No such file or directory"), (tmp_path, "is not empty")):
+        done = run("--to", place)
+        assert (done.exit_code, message in done.stderr) == (2, True), done.output
+
+
 def test_places_that_cannot_be_used(tmp_path, monkeypatch):
     (tmp_path / "file").write_text("mine")
     assert "is a file" in run("--to", tmp_path / "file").stderr

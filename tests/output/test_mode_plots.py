@@ -108,6 +108,18 @@ def test_svg_holds_the_shape(modes):
 
 def test_animate_writes_what_the_ending_says(modes, tmp_path):
     assert yd.animate(modes, tmp_path / "a.svg", mode="yaw damper relaxation").read_text().startswith("<svg")
-    with pytest.raises(yd.ProblemError, match=r"as \.gif or \.svg"):
+    with pytest.raises(yd.ProblemError, match=r"must end in \.gif or \.svg"):
         yd.animate(modes, tmp_path / "a.png")
     assert [path.name for path in tmp_path.iterdir()] == ["a.svg"]
+
+
+def test_animate_looks_at_the_file_and_the_mode_before_it_draws(modes, tmp_path, monkeypatch):
+    monkeypatch.setattr("yawdesign.output.animation.mode_shape", None)
+    (tmp_path / "b.gif").mkdir()
+    for name, mode, message in (
+        ("none/a.gif", None, "there is no folder"),
+        ("b.gif", None, "is a folder"),
+        ("a.gif", "frame yow", "did you mean frame yaw"),
+    ):
+        with pytest.raises(yd.ProblemError, match=message):
+            yd.animate(modes, tmp_path / name, mode=mode)

@@ -122,6 +122,21 @@ def test_answers_without_a_value_are_drawn_by_their_reason():
     assert "no design" in words(drawn(yd.sweep(tight, of="design", **over)))
 
 
+@pytest.mark.parametrize("of", ["critical", "C_sl", "design", "critical_speed", "stable", "decay_rate"])
+def test_an_axis_of_one_value_stands_in_the_title(of):
+    several = {"f_m": [2.0, 3.0, 4.0]} | ({"C_s": [1e5, 1e6]} if of in ("stable", "decay_rate") else {})
+    for number in range(1, len(several) + 1):
+        axes = dict(list(several.items())[-number:])
+        ax = drawn(yd.sweep(PRINTED.replace(C_s=1e6), of=of, lambda_=0.15, **axes))
+        assert r"$\lambda$ = 0.15" in words(ax).replace("\n", " ")
+        assert ("frequency" in ax.get_xlabel()) == ("f_m" in axes)
+
+
+def test_a_single_point_has_no_picture():
+    with pytest.raises(yd.ProblemError, match="a single point has no picture"):
+        yd.plot(yd.sweep(PRINTED, of="critical", f_m=3.0, v="300 km/h"))
+
+
 def test_three_axes_need_a_plane():
     whole = yd.sweep(PRINTED, of="stable", C_s=[5e4, 5e5], v=[70, 90], lambda_=[0.1, 0.2])
     with pytest.raises(yd.ProblemError, match="choose a plane"):

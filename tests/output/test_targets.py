@@ -104,5 +104,6 @@ def test_in_python_too(tmp_path):
             write(name)
         assert Path(name).read_bytes() == before
         write(name, replace=True)
-    with pytest.raises(yd.ProblemError, match=r"p\.yaml exists"):
-        yd.animate(yd.modes(yd.table1()), "p.yaml")
+    Path("p.svg").write_text("mine")
+    with pytest.raises(yd.ProblemError, match=r"p\.svg exists"):
+        yd.animate(yd.modes(yd.table1()), "p.svg")

@@ -60,6 +60,14 @@ def test_pictures(tmp_path):
         (["--to", "x.mp4"], "must end in .gif or .svg"),
         (["--plot", "x.bmp"], "must end in .png or .pdf or .svg"),
         (["--over", "v=20:30:3", "--of", "locus", "--plot", "x.png"], "is not one of"),
+        (["--over", "v=20:80:1000000"], "1000000 values are too many"),
+        (["--over", "v=80"], "at least two values"),
+        (["--animate", "frame yaw"], "--animate: chooses which mode --plot or --to shows"),
+        (["--animate", "typo_mode", "--plot", "x.png"], "mode 'typo_mode' is not known here"),
+        (["--of", "locus"], "--of: locus is not one of"),
+        (["--of", "frequency", "--plot", "x.png"], "--of: chooses what --plot draws with --over"),
+        (["--to", "none/x.gif"], "there is no folder none"),
+        (["--plot", "none/x.png"], "there is no folder none"),
     ],
 )
 def test_mistakes_end_with_code_2_and_write_nothing(arguments, message, tmp_path, monkeypatch):

@@ -37,6 +37,13 @@ def test_a_range_has_its_ends_and_its_number(low, ratio, n, log):
     assert steps == pytest.approx(steps.mean(), rel=1e-6)
 
 
+@pytest.mark.parametrize(
+    "values", [80.0, 80, "288 km/h", [80.0], ["288 km/h"], "80:80:1", np.float64(80), np.array(80)]
+)
+def test_one_value(values):
+    assert read_axis("v", values).values.tolist() == [80.0]
+
+
 def test_values_in_any_container():
     expected = [1e5, 1e6]
     for values in (
@@ -55,13 +62,14 @@ def test_values_in_any_container():
     ("values", "text"),
     [
         ([], "has no values"),
-        ([80.0], "single value"),
-        (80.0, "single value"),
-        ("300 km/h", "no range"),
+        ("", "no range"),
+        ("300 km/h:", "no range"),
+        ("300 kmh", "km/h"),
         ("1:2:3:linear", "no range"),
         ("80:80:3", "empty range"),
         ("100:80:3", "less than min"),
-        ("1:2:1", "whole number from 2"),
+        ("1:2:0", "whole number from 1"),
+        ("1:2:1", "one value cannot be both 1 and 2: write 1"),
         ("1:2:2.5", "whole number"),
         ("1:2:1e12", "whole number"),
         ("1 kg:2 m/s:3", "mass"),
@@ -76,7 +84,9 @@ def test_values_in_any_container():
         ([True, False], "not a number"),
         ([[70, 80], [90, 100]], "dimensions"),
         ([[70, 80], [90]], "list of lists"),
-        ({70: 80}, "single value"),
+        ({70: 80}, "not a number"),
+        (None, "has no value"),
+        (math.nan, "outside|finite"),
     ],
 )
 def test_wrong_values(values, text):
@@ -134,7 +144,7 @@ def test_names():
 
 
 def test_all_mistakes_at_once():
-    found = mistakes(of="all", v=[80], f_m="3:2:9", fm=[1, 2], K_m=[-1, 2], hold="K_m")
+    found = mistakes(of="all", v=[], f_m="3:2:9", fm=[1, 2], K_m=[-1, 2], hold="K_m")
     assert set(found) == {"of", "axes", "v", "f_m.max", "fm", "K_m", "f_m", "hold"}
 
 

@@ -153,14 +153,14 @@ def test_a_signal_after_the_last_point_keeps_the_whole(monkeypatch, expected):
 
 
 def test_a_signal_in_the_computation_of_the_lines_keeps_the_whole(monkeypatch):
-    swept = sweeps.swept
+    answered = sweeps.answered
 
-    def asked(problem, of, *arguments, **options):
-        if of == "critical":
+    def asked(request, **options):
+        if request.of == "critical":
             monkeypatch.setattr(chunks, "answer", lambda *_: signal.raise_signal(signal.SIGTERM))
-        return swept(problem, of, *arguments, **options)
+        return answered(request, **options)
 
-    monkeypatch.setattr(sweeps, "swept", asked)
+    monkeypatch.setattr(sweeps, "answered", asked)
     with pytest.raises(yd.IncompleteSweepError, match="3 of 3 points") as caught:
         yd.sweep(PRINTED, of="C_sl", v=[70.0, 80.0, 90.0])
     assert caught.value.result.known.all()

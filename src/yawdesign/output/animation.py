@@ -6,8 +6,9 @@ from pathlib import Path
 
 from yawdesign.output.mode_plots import mode_shape
 from yawdesign.output.plan_view import COLOURS, REST, Body, Corner, bodies, caption, find_mode, half_size, subtitle
-from yawdesign.problem import ProblemError
-from yawdesign.problem.writing import refuse_existing, write_whole
+from yawdesign.output.plots import ANIMATIONS, own_texts
+from yawdesign.output.targets import Target, checked_targets
+from yawdesign.problem.writing import write_whole
 from yawdesign.response.modes import Modes, NamedMode
 
 FRAMES, PERIOD = 24, 1.6  # pictures and seconds of a cycle
@@ -55,16 +56,16 @@ def animate(result: Modes, to: str | Path, *, mode: str | None = None, replace: 
     Raises
     ------
     ProblemError
-        If the ending or the mode is not known, or there is a file that may not be replaced.
+        If the ending or the mode is not known, there is no such folder, or there is a file that may not be replaced.
     OSError
         If it cannot be written.
     """
     path = Path(to)
+    checked_targets([Target("", str(path), ANIMATIONS, replace)], [])
+    find_mode(result, mode)
     makers = {".gif": gif, ".svg": svg}
-    refuse_existing(path, replace)
-    if path.suffix.lower() not in makers:
-        raise ProblemError(f"{path.name}: a mode is written as .gif or .svg")
-    write_whole(path, makers[path.suffix.lower()](result, mode), replace=replace)
+    with own_texts():
+        write_whole(path, makers[path.suffix.lower()](result, mode), replace=replace)
     return path
 
 

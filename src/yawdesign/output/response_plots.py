@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from yawdesign.output.plots import new_axes
+from yawdesign.output.plots import literal, new_axes
 from yawdesign.problem import ProblemError, format_quantity
 
 if TYPE_CHECKING:
@@ -76,7 +76,9 @@ def simulation(
     ax.axhline(0, color="0.7", lw=0.6, zorder=0)
     ax.margins(x=0)
     ax.set(xlabel="time [s]", ylabel=f"{_first_capital(meaning(response))} [{unit}]")
-    ax.set_title(f"Track {result.track}, C_s = {format_quantity(result.C_s, 'kN·s/m')}", fontsize="medium", loc="left")
+    ax.set_title(
+        f"Track {literal(result.track)}, C_s = {format_quantity(result.C_s, 'kN·s/m')}", fontsize="medium", loc="left"
+    )
     ax.legend(frameon=False, ncols=min(len(chosen), 4), loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2)
     return ax
 
@@ -126,7 +128,7 @@ def spectrum_check(result: "SpectrumCheck", ax: "Axes | None" = None) -> "Axes":
     ax = new_axes(ax)
     factor, unit, density = {"alignment": (1e3, "mm", "m²"), "cross_level": (1e3, "mrad", "rad²")}[result.input]
     sample = f"synthesised, RMS {factor * result.rms_sample:.3f} {unit} (Welch)"
-    target = f"{result.track}, RMS {factor * result.rms_target:.3f} {unit} in the band"
+    target = f"{literal(result.track)}, RMS {factor * result.rms_target:.3f} {unit} in the band"
     ax.loglog(result.wavenumber, result.sample, color=LATERAL, lw=0.8, label=sample)
     ax.loglog(result.wavenumber, result.target, color=YAW, lw=1.6, label=target)
     ax.set(xlabel="wavenumber [rad/m]", ylabel=f"density of {result.input.replace('_', '-')} [{density}/(rad/m)]")

@@ -5,12 +5,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import mkdtemp
 
-from yawdesign.output.plots import PICTURES, write_picture
+from yawdesign.output.plots import PICTURES, check_pictures, write_picture
 from yawdesign.output.plots import plot as draw
+from yawdesign.output.study_plots import check_drawn
 from yawdesign.output.targets import Target, checked_targets
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.stopping import held, let_through
+from yawdesign.study.axes import Axis
 from yawdesign.study.result import Sweep
 
 MOST_KEPT = 100  # files of one name; then the system's temporary folder is used
@@ -43,7 +45,7 @@ class Outputs:
     def checked(
         cls,
         problem_file: str,
-        axes: Sequence[str],
+        axes: Sequence[Axis],
         *,
         csv: str | None,
         npz: str | None,
@@ -61,15 +63,16 @@ class Outputs:
                 Target("--resume", resume, replaced=True),  # a file of another sweep is refused when it is read
             )
             checked_targets(targets, [problem_file])
-        with mistakes.under("--plot"):
-            if plot is not None and len(axes) > 2:
-                raise ProblemError("a picture has one or two axes")
-        mistakes.report()
         table, arrays, picture, kept = (Path(name) if name else None for name in (csv, npz, plot, resume))
+        with mistakes.under("--plot"):
+            if picture is not None:
+                check_drawn(axes)
+                check_pictures(picture)
+        mistakes.report()
         return cls(table, arrays, picture, kept, problem_file, force)
 
     def write(self, sweep: Sweep) -> None:
-        """Write all files; if one cannot be written, the others are, and the first error is raised."""
+        """Write all files; if one cannot be drawn or written, the others are, and the first error is raised."""
         errors: list[Exception] = []
         for path, write in (
             (self.csv, sweep.to_csv),

@@ -1,7 +1,7 @@
 """Pictures of sweeps: a curve over one axis, a map over two."""
 
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.output.branches import Column, curves, stable_areas
-from yawdesign.output.plots import new_axes
+from yawdesign.output.plots import literal, new_axes
 from yawdesign.output.units import shown_unit
 from yawdesign.problem import ProblemError, to_unit
+from yawdesign.problem.table import field_name
 from yawdesign.study.axes import ROWS, Axis
 from yawdesign.study.result import Sweep
 
@@ -44,6 +45,8 @@ WIDE = 30.0  # ratio of values from which on a logarithmic scale reads better
 def draw(sweep: Sweep, ax: "Axes | None" = None) -> "Axes":
     """Draw a sweep: over one axis the curve with all its branches, over two a map with the boundary of stability.
 
+    An axis of a single value stands in the title.
+
     Parameters
     ----------
     sweep : Sweep
@@ -53,8 +56,9 @@ def draw(sweep: Sweep, ax: "Axes | None" = None) -> "Axes":
     """
     from yawdesign.output import study_maps
 
-    if len(sweep.axes) > 2:
-        raise ProblemError("a picture has one or two axes: choose a plane, such as result.at(v=83.3)")
+    check_drawn(sweep.axes)
+    for axis in [axis for axis in sweep.axes if axis.values.size == 1]:
+        sweep = sweep.at(**{field_name(axis.name): axis.values[0]})
     ax = new_axes(ax)
     if len(sweep.axes) == 2:
         return study_maps.draw_map(sweep, ax)
@@ -72,10 +76,20 @@ def draw(sweep: Sweep, ax: "Axes | None" = None) -> "Axes":
     return ax
 
 
+def check_drawn(axes: Sequence[Axis]) -> None:
+    """Raise an error if a picture cannot show these axes: one or two of them have several values."""
+    several = [axis.name for axis in axes if axis.values.size > 1]
+    if not several:
+        raise ProblemError("a single point has no picture: one axis needs two values or more")
+    if len(several) > 2:
+        text = f"{', '.join(several)} are {len(several)}: a picture has one or two axes of several values"
+        raise ProblemError(f"{text}; in Python choose a plane, such as result.at(v=83.3)")
+
+
 def title(sweep: Sweep) -> str:
     """Return what the picture is of: the problem, and what is not on its axes."""
     problem, names = sweep.request.problem, {axis.name for axis in sweep.request.axes}
-    parts = [problem.title, *(f"equations {problem.equations}" for _ in range(problem.bogie.kind == "power"))]
+    parts = [literal(problem.title), *(f"equations {problem.equations}" for _ in range(problem.bogie.kind == "power"))]
     if "v" not in names and sweep.quantity != "critical_speed":
         parts.append(
             " to ".join(f"{to_unit(v, 'km/h'):.4g}" for v in sorted({*problem.speeds[:1], *problem.speeds[-1:]}))

@@ -33,7 +33,7 @@ def sweep_tables(sweep: Sweep) -> RenderableType:
 def _facts(sweep: Sweep) -> Iterator[tuple[str, str]]:
     for axis in sweep.axes:
         low, high = (_text(axis.name, axis.values[k]) for k in (0, -1))
-        yield f"over {axis.name}", f"{low} ... {high}, {axis.values.size} values"
+        yield f"over {axis.name}", f"{low} ... {high}, {axis.values.size} values" if axis.values.size > 1 else low
     points = sweep.finished.size
     yield "points", f"{points}"
     yield GOOD.get(sweep.quantity, "stable"), _share(sweep.good.sum(), points)

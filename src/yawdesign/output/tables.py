@@ -1,7 +1,8 @@
 """Results as tables for a terminal; nothing is computed here."""
 
+import io
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console, Group, RenderableType
 from rich.table import Table
@@ -174,6 +175,9 @@ def export_tables(result: "Export") -> RenderableType:
     return _facts(f"Written to {result.folder}", [*rows, ("what they take and give", "manifest.json")])
 
 
-def show(table: RenderableType) -> None:
-    """Print tables on standard output."""
-    Console().print(table)
+def rendered(table: RenderableType) -> str:
+    """Return tables as standard output shows them; brackets and colons in their texts are no markup."""
+    terminal, text = Console(), io.StringIO()
+    looks: dict[str, Any] = {"width": terminal.width, "force_terminal": terminal.is_terminal}
+    Console(file=text, markup=False, emoji=False, **looks).print(table)
+    return text.getvalue()

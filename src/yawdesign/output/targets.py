@@ -45,7 +45,8 @@ def checked_targets(targets: Iterable[Target], inputs: Iterable[str]) -> list[Pa
     Raises
     ------
     ProblemError
-        With all mistakes: a folder or ending that is not there, a file that exists or is read, a name given twice.
+        With all mistakes: a folder or ending that is not there, no permission, a file that exists or is read, a name
+        given twice.
     """
     mistakes, paths = Mistakes(), []
     taken = [(Path(name), "is what the command reads") for name in inputs if Path(name).is_file()]
@@ -69,6 +70,8 @@ def _check(path: Path, target: Target) -> None:
         raise ProblemError(f"{path}: there is no folder {path.parent}")
     if path.is_dir():
         raise ProblemError(f"{path} is a folder: give the name of a file")
+    if not os.access(path if is_stream(path) else path.resolve().parent, os.W_OK):
+        raise ProblemError(f"{path}: no permission to write")
     if os.path.lexists(path) and not target.replaced and not is_stream(path):
         raise ProblemError(f"{path} exists: choose another name, or give --force to replace it")
 

@@ -24,6 +24,7 @@ from yawdesign.stability.modes import Complex, Float, backward_error
 from yawdesign.stability.verdict import EXACT, given_damping
 
 SPEED_NAMES = ("v", "speed")
+MOST_VALUES = 10_000  # of the parameter: about a minute and 0.3 GB
 
 
 @dataclass(frozen=True)
@@ -185,6 +186,8 @@ def _axis(problem: Problem, axis: Mapping[str, Any]) -> tuple[str, Parameter, Fl
 
 
 def _values(key: str, row: Parameter, given: Any) -> Float:
+    if np.size(given) > MOST_VALUES:
+        raise ProblemError(f"{key}: {np.size(given)} values are too many: at most {MOST_VALUES} are followed")
     mistakes, values = Mistakes(), []
     for k, value in enumerate(as_several(given)):
         with mistakes.under(f"{key}[{k}]"):

@@ -24,6 +24,7 @@ WAVELENGTH = Parameter(
     usual=(1.0, 200.0),
     source="20",
 )
+MOST_WAVELENGTHS = 100_000  # about 1 GB
 BLOCK = 1000  # frequencies solved at once
 EXACT = 1e-9  # largest relative difference of the two ways
 
@@ -144,6 +145,8 @@ def _lengths(wavelength: Any) -> Float:
     values = as_several(wavelength)
     if not values:
         raise ProblemError("no wavelength is given: expected one or a list of them")
+    if len(values) > MOST_WAVELENGTHS:
+        raise ProblemError(f"{len(values)} values are too many: at most {MOST_WAVELENGTHS} at a time")
     return np.array([float(WAVELENGTH.check(x)) for x in values])
 
 

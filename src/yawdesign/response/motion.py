@@ -112,7 +112,7 @@ class Motion:
 
 def move(system: System, plan: Plan, abscissa: float) -> Motion:
     """Return the motion of a bogie with a given spectral abscissa [1/s] over a track."""
-    clock = _clock(system, plan, abscissa)
+    clock = planned_clock(system, plan, abscissa)
     hold = first_order_hold(system.A, system.B, clock.step)
     u, lines = _inputs(system, plan.track, clock)
     force = forced(hold, u) if lines is None else forced_by_lines(system, hold, lines, clock)
@@ -122,7 +122,8 @@ def move(system: System, plan: Plan, abscissa: float) -> Motion:
     return Motion(start, clock, hold.transition, u, y)
 
 
-def _clock(system: System, plan: Plan, abscissa: float) -> Clock:
+def planned_clock(system: System, plan: Plan, abscissa: float) -> Clock:
+    """Return the instants of the run of a bogie with a given spectral abscissa [1/s]."""
     duration = plan.duration if plan.length is None else plan.length / system.v
     if isinstance(plan.track, MeasuredTrack):
         longest = plan.track.duration(system)

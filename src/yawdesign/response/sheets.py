@@ -3,10 +3,10 @@
 import re
 from dataclasses import dataclass, replace
 from os import PathLike, fspath
-from pathlib import Path
 
 from yawdesign.problem.diagnostics import Diagnostic, ProblemError
 from yawdesign.problem.units import Unit, parse_unit, shortened
+from yawdesign.response.text_file import text_of
 
 MOST_SHOWN = 20
 KM_M = "km+m"  # the unit of chainages such as 12+345.6
@@ -83,7 +83,8 @@ def read_sheet(path: str | PathLike[str]) -> Sheet:
         With file, line and column of everything that is wrong with the heads.
     """
     name = fspath(path)
-    lines = [(n, line) for n, line in enumerate(_text(name).split("\n"), 1) if line.strip() and line.lstrip()[0] != "#"]
+    every = enumerate(text_of(name).split("\n"), 1)
+    lines = [(n, line) for n, line in every if line.strip() and line.lstrip()[0] != "#"]
     if not lines:
         raise ProblemError([Diagnostic(path=name, message="the file is empty")])
     head = lines[0][1]
@@ -91,16 +92,6 @@ def read_sheet(path: str | PathLike[str]) -> Sheet:
     (line, fields), *body = [(n, _split(text, separator)) for n, text in lines]
     sheet = Sheet(name, separator, line, [_heading(name, line, *field) for field in fields], body)
     return _with_units_below(sheet) if body and _has_units(body[0][1]) else sheet
-
-
-def _text(name: str) -> str:
-    try:
-        return Path(name).read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError:
-        raise ProblemError([Diagnostic(path=name, message="is not UTF-8 text: save the file as UTF-8")]) from None
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise ProblemError([Diagnostic(path=name, message=f"cannot be read: {reason}")]) from None
 
 
 def _split(line: str, separator: str) -> Fields:

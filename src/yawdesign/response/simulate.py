@@ -11,14 +11,15 @@ from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_choice, as_count, as_quantity, as_several
 from yawdesign.response.component import DamperComponent, component
-from yawdesign.response.motion import History, Plan
+from yawdesign.response.motion import TRACK_INPUTS, History, Plan, planned_clock
 from yawdesign.response.runs import Run, run
-from yawdesign.response.system import coordinates, system_at
+from yawdesign.response.system import System, coordinates, system_at
 from yawdesign.response.track import Band
 from yawdesign.response.tracks import as_track
 from yawdesign.stability.verdict import given_damping
 
 USUAL_OFFSET = 0.01  # [m]
+MOST_TOGETHER = 10_000_000  # steps of all runs, which are kept in memory: about 5 GB
 STARTS = ("stationary", "rest", "offset")
 Progress = Callable[[str, float], Any]
 
@@ -172,9 +173,11 @@ def simulate(
 def _simulation(problem: Problem, plan: Plan, speeds: Sequence[float], progress: Progress) -> Simulation:
     runs: list[Run] = []
     histories: list[History] = []
-    for k, v in enumerate(speeds):
-        progress(f"running at {3.6 * v:.4g} km/h", k / len(speeds))
-        one, history = run(system_at(problem, v), plan)
+    systems = [system_at(problem, v) for v in speeds]
+    _check_steps(systems, plan)
+    for k, system in enumerate(systems):
+        progress(f"running at {3.6 * system.v:.4g} km/h", k / len(speeds))
+        one, history = run(system, plan)
         runs.append(one)
         histories.append(history)
     worst = max(runs, key=lambda one: one.spectral_abscissa)
@@ -192,6 +195,24 @@ def _simulation(problem: Problem, plan: Plan, speeds: Sequence[float], progress:
         checked=all(one.checked for one in runs) and (damper is None or damper.checked),
         histories=tuple(histories),
     )
+
+
+def _check_steps(systems: Sequence[System], plan: Plan) -> None:
+    steps = sum(planned_clock(x, plan, float(x.eigenvalues.real.max())).steps for x in systems)
+    if steps > MOST_TOGETHER:
+        text = f"{len(systems)} runs have {steps} steps together, at most {MOST_TOGETHER} are kept"
+        raise ProblemError(f"speed: {text}: give fewer speeds or shorter runs")
+
+
+def response_names(problem: Problem) -> tuple[str, ...]:
+    """Return the names of all track inputs and responses of a problem's bogie, as in `History.values`.
+
+    Parameters
+    ----------
+    problem : Problem
+        With a value of ``C_s``.
+    """
+    return (*TRACK_INPUTS, *system_at(problem, problem.speeds[0]).outputs)
 
 
 def damper_component(problem: Problem, **options: Any) -> DamperComponent:

@@ -10,6 +10,7 @@ from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_choice, as_quantity
+from yawdesign.response.march import MOST_STEPS
 from yawdesign.response.system import INPUTS, Float
 from yawdesign.response.track import Clock, RandomTrack, synthesise
 from yawdesign.response.tracks import as_track
@@ -91,6 +92,8 @@ def spectrum_check(
         raise ProblemError(f"track: {road.name} has no spectrum of {input}")
     low, high = road.band.hertz(v)
     steps = 2 * int(np.ceil(way / v * high * PER_WAVE / 2))
+    if steps > MOST_STEPS:
+        raise ProblemError(f"length: {way:g} m take {steps} points, at most {MOST_STEPS} are made")
     clock = Clock(way / v / steps, steps)
     sample = synthesise(road.lines_at(v, way / v, 0.0), clock)[:-1, INPUTS.index(input)]
     f, S = welch(sample, fs=steps / way, nperseg=steps // SEGMENTS, detrend=False)

@@ -84,8 +84,9 @@ def read_values(values: object, row: Parameter) -> Float:
 
     Parameters
     ----------
-    values : str or sequence
-        A text ``"LOW:HIGH:N"`` or ``"LOW:HIGH:N:log"``, or numbers in SI or texts with a unit in rising order.
+    values : str, number or sequence
+        A text ``"LOW:HIGH:N"`` or ``"LOW:HIGH:N:log"``, or numbers in SI or texts with a unit in rising order; one
+        number or text is one value.
     row : Parameter
         What is varied: its unit and its range.
 
@@ -96,7 +97,7 @@ def read_values(values: object, row: Parameter) -> Float:
     Raises
     ------
     ProblemError
-        If there are fewer than two values, or they do not rise, are no numbers or lie outside the hard range.
+        If there is no value, or they do not rise, are no numbers or lie outside the hard range.
 
     Examples
     --------
@@ -108,9 +109,8 @@ def read_values(values: object, row: Parameter) -> Float:
     if isinstance(values, str):
         return read_range(values, row)
     found = _numbers(values, row)
-    if found.size < 2:
-        text = "has no values" if not found.size else "has a single value: put it into the problem, an axis has two"
-        raise ProblemError(f"{text} or more")
+    if not found.size:
+        raise ProblemError("has no values")
     _check(found, row)
     if not np.all(np.diff(found) > 0):
         k = int(np.argmin(np.diff(found) > 0))
@@ -120,7 +120,7 @@ def read_values(values: object, row: Parameter) -> Float:
 
 
 def read_range(text: str, row: Parameter) -> Float:
-    """Return the values that ``LOW:HIGH:N`` or ``LOW:HIGH:N:log`` stands for, in SI.
+    """Return the values that ``LOW:HIGH:N``, ``LOW:HIGH:N:log`` or a single ``VALUE`` stands for, in SI.
 
     Parameters
     ----------
@@ -139,14 +139,15 @@ def read_range(text: str, row: Parameter) -> Float:
         With all that is wrong with it.
     """
     parts = [part.strip() for part in text.split(":")]
+    if len(parts) == 1 and text:
+        return np.array([float(row.check(text))])
     if len(parts) not in (3, 4) or (len(parts) == 4 and parts[3] != "log"):
         raise ProblemError(f"{text!r} is no range: write LOW:HIGH:N or LOW:HIGH:N:log, such as 150 km/h:450 km/h:60")
     mistakes, ends, count = Mistakes(), (1.0, 2.0), 2
-    with mistakes.under(""):
-        low, high = check_ends(parts[0], parts[1], row)
-        ends = float(low), float(high)
     with mistakes.under("N"):
-        count = as_count(parts[2], 2, MOST_VALUES)
+        count = as_count(parts[2], 1, MOST_VALUES)
+    with mistakes.under(""):
+        ends = _ends(parts[0], parts[1], row, count)
     with mistakes.under("min"):
         if len(parts) == 4 and ends[0] <= 0:
             raise ProblemError(f"{parts[0]} is not above zero, where a logarithmic range must begin")
@@ -156,14 +157,24 @@ def read_range(text: str, row: Parameter) -> Float:
     return np.geomspace(*ends, count) if len(parts) == 4 else np.linspace(*ends, count)
 
 
+def _ends(low: str, high: str, row: Parameter, count: int) -> tuple[float, float]:
+    if count > 1:
+        least, most = check_ends(low, high, row)
+        return float(least), float(most)
+    if row.check(low) != row.check(high):
+        raise ProblemError(f"one value cannot be both {low} and {high}: write {low}")
+    return float(row.check(low)), float(row.check(high))
+
+
 def _numbers(values: object, row: Parameter) -> Float:
     try:
         found = np.asarray(values)
     except ValueError:
         raise ProblemError("is a list of lists, expected a list of values or a text LOW:HIGH:N") from None
-    if found.ndim != 1:
-        kind = "a single value" if found.ndim == 0 else f"an array of {found.ndim} dimensions"
-        raise ProblemError(f"is {kind}, expected a list of values or a text LOW:HIGH:N")
+    if found.ndim > 1:
+        raise ProblemError(f"is an array of {found.ndim} dimensions, expected a list of values or a text LOW:HIGH:N")
+    if found.ndim == 0:
+        return np.array([row.check(found.item())], dtype=float)
     if found.dtype.kind in "iuf":
         return found.astype(float)
     return np.array([row.accept(x) for x in cast(Iterable[Any], values)], dtype=float)

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import prod
 from typing import Any
 
@@ -71,6 +71,11 @@ class Request:
     def size(self) -> int:
         """Number of points."""
         return prod(shape(self.axes))
+
+    def about(self, of: str, axes: tuple[Axis, ...]) -> "Request":
+        """Return the same request about another quantity, over some of its axes; what is held stays held."""
+        task = replace(self.task, question=Question.about(self.problem, of), parameters=_parameters(self.problem, of))
+        return replace(self, of=of, task=task, axes=axes)
 
 
 def request(problem: Problem, of: str, axes: Iterable[tuple[str, Any]], hold: str | None) -> Request:

@@ -4,7 +4,7 @@ import platform
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
-from importlib.metadata import version
+from importlib import import_module
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -254,7 +254,7 @@ def _provenance(asked: Request, store: Store, seconds: float) -> dict[str, Any]:
     return {
         "problem": asked.problem.to_dict(),
         "hold": asked.task.hold,
-        "versions": versions | {name: version(name) for name in ("numpy", "casadi")},
+        "versions": versions | {name: import_module(name).__version__ for name in ("numpy", "casadi")},
         "points": store.size,
         **{name: int(getattr(store, name).sum()) for name in ("finished", "recomputed", "unverified")},
         "seconds": round(seconds, 3),

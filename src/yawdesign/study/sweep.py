@@ -3,6 +3,7 @@
 import time
 import warnings
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -118,8 +119,20 @@ def swept(
     chunk: int | None = None,
 ) -> Sweep:
     """Return what `sweep` returns; here the axes are pairs of name and values, in which a name may wrongly recur."""
-    begin = time.perf_counter()
     asked = request(problem, of, axes, hold)
+    return answered(asked, executor=executor, resume=resume, progress=progress, chunk=chunk)
+
+
+def answered(
+    asked: Request,
+    *,
+    executor: Any = None,
+    resume: str | PathLike[str] | None = None,
+    progress: Progress = lambda text, part: None,
+    chunk: int | None = None,
+) -> Sweep:
+    """Return the answers to a checked request; the other arguments as in `sweep`."""
+    begin = time.perf_counter()
     _check_work(executor, chunk)
     kept = None if resume is None else _Kept(Path(resume), asked)
     store = kept.store if kept else Store(asked.size)
@@ -201,24 +214,36 @@ def _remedy(store: Store, kept: _Kept | None) -> str:
 
 
 def _boundary(asked: Request, executor: Any) -> tuple[BaseException | None, Sweep | None]:
-    """Return all critical values, where a picture of the sweep needs them, and who stopped their computation."""
+    """Return all critical values, where a picture of the sweep needs them, and who stopped their computation.
+
+    Whatever goes wrong here, the sweep itself is finished.
+    """
     axes = _axes_of_boundary(asked)
     if len(axes) != 1 or axes[0].values.size > MOST_DRAWN:
         return None, None
     if axes[0].name != "v" and isinstance(asked.problem.speed, SpeedRange):
         return None, None  # each speed has its own
-    pairs = [(axis.name, axis.values) for axis in axes]
     try:
-        return None, swept(asked.problem, "critical", pairs, hold=asked.task.hold, executor=executor)
-    except IncompleteSweepError as error:
-        return error.__cause__ if error.interrupted else None, None  # the sweep itself is finished
+        return None, answered(asked.about("critical", axes), executor=executor)
+    except Exception as error:  # noqa: BLE001 - no fault may cost the points that are finished
+        if isinstance(error, IncompleteSweepError) and error.interrupted:
+            return error.__cause__, None
+        _say_without_lines(error)
+        return None, None
 
 
-def _axes_of_boundary(asked: Request) -> list[Axis]:
+def _say_without_lines(error: BaseException) -> None:
+    reason = getattr(error, "reason", f"{type(error).__name__}: {error}")
+    text = f"the critical lines for a picture are missing ({reason}); the sweep itself is whole"
+    with suppress(RuntimeWarning):  # where warnings are errors
+        warnings.warn(text, RuntimeWarning, stacklevel=2)
+
+
+def _axes_of_boundary(asked: Request) -> tuple[Axis, ...]:
     """Return the axis over which the critical values bound what is stable: beside C_s, or with all C_s at once."""
     quantity, axes = asked.task.question.of, asked.axes
     if quantity in ("C_sl", "design"):
-        return list(axes)
+        return axes
     with_damping = quantity in ("stable", "decay_rate", "damping_ratio") and len(axes) == 2
-    others = [axis for axis in axes if axis.name != "C_s"]
-    return others if with_damping else []
+    others = tuple(axis for axis in axes if axis.name != "C_s")
+    return others if with_damping else ()

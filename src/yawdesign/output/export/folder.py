@@ -1,6 +1,8 @@
 """A folder of exported files: written beside their place and moved there, foreign files untouched."""
 
+import errno
 import json
+import os
 import shutil
 import tempfile
 import time
@@ -41,7 +43,7 @@ def exported_folder(to: Path, *, force: bool) -> Iterator[Path]:
     OSError
         If it cannot be written.
     """
-    _refuse(to, force)
+    check_place(to, force=force)
     new = not to.exists()
     try:
         to.mkdir(exist_ok=True)
@@ -58,7 +60,10 @@ def exported_folder(to: Path, *, force: bool) -> Iterator[Path]:
                 to.rmdir()  # which it is only if it is empty
 
 
-def _refuse(to: Path, force: bool) -> None:
+def check_place(to: Path, *, force: bool) -> None:
+    """Raise an error if an export cannot go to a place; arguments as in `exported_folder`."""
+    if not to.absolute().parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(to))
     if to.exists() and not to.is_dir():
         raise ProblemError(f"{to} is a file: give the name of a folder")
     if to.exists() and not force and _contents(to):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from yawdesign.design.functions import c_source, functions, listed, self_test, versions
 from yawdesign.output.export import c_files
-from yawdesign.output.export.folder import exported_folder, write_text
+from yawdesign.output.export.folder import check_place, exported_folder, write_text
 from yawdesign.output.export.manifest import write_manifest
 from yawdesign.output.export.matlab import write_mat
 from yawdesign.output.export.names import PREFIX, Names
@@ -128,6 +128,7 @@ def export(
     """
     only, formats = _sorted_out(only, formats)
     wanted, names = _formats(formats), Names(prefix)
+    check_place(Path(to), force=force)
     documented = functions(problem, inputs, only).documented
     if not documented:
         raise ProblemError("no function is named: leave `only` out to export all")
