@@ -16,6 +16,9 @@ import yawdesign as yd
 from yawdesign.problem.arguments import ArgumentError, checked, expected, fits
 from yawdesign.problem.result import Result
 
+# A number may be a speed that somebody meant in km/h: that is another test's matter.
+pytestmark = pytest.mark.filterwarnings("ignore::yawdesign.problem.diagnostics.UnitWarning")
+
 
 class Enough(BaseException):
     """The arguments were accepted: what follows need not be computed."""
@@ -123,7 +126,8 @@ def names(public, argument, value, text):
 def shows(value, text):
     """Return whether a message says what came: the value, an entry of it, or its type."""
     several = [*value] if isinstance(value, (list, dict, np.ndarray)) else []
-    said = [type(value).__name__, *(show(x)[:20] for x in (value, *several) for show in (repr, str))]
+    said = [type(value).__name__, *(" ".join(show(x).split())[:20] for x in (value, *several) for show in (repr, str))]
+    text = " ".join(text.replace("\\n", " ").split())  # an array is written in several lines
     said += SAID_OF.get(str(value), ())
     return any(word.casefold() in text.casefold() for word in (*said, "single value", "dimensions", "two values"))
 

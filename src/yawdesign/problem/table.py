@@ -244,7 +244,7 @@ def _shown(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     try:
-        text = value.strip() if isinstance(value, str) else f"{value!r}"
+        text = value.strip() if isinstance(value, str) else " ".join(f"{value!r}".split())
     except ValueError:  # of a number that Python refuses to write out
         text = "a number of thousands of digits"
     return text if len(text) <= 60 else f"{text[:57]}..."

@@ -186,13 +186,13 @@ def _axis(problem: Problem, axis: Mapping[str, Any]) -> tuple[str, Parameter, Fl
 
 
 def _values(key: str, row: Parameter, given: Any) -> Float:
-    if np.size(given) > MOST_VALUES:
-        raise ProblemError(f"{key}: {np.size(given)} values are too many: at most {MOST_VALUES} are followed")
+    listed, computed = as_several(given), isinstance(given, np.ndarray)
+    if len(listed) > MOST_VALUES:
+        raise ProblemError(f"{key}: {len(listed)} values are too many: at most {MOST_VALUES} are followed")
     mistakes, values = Mistakes(), []
-    for k, value in enumerate(as_several(given)):
+    for k, value in enumerate(listed):
         with mistakes.under(f"{key}[{k}]"):
-            computed = isinstance(value, np.generic)
-            values.append(float(row.check(value.item()) if computed else row.accept(value)))
+            values.append(float(row.check(value) if computed else row.accept(value)))
     mistakes.report()
     steps = np.sign(np.diff(values))
     if len(values) < 2 or not (np.all(steps > 0) or np.all(steps < 0)):

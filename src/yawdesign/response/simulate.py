@@ -265,7 +265,7 @@ def _speeds(problem: Problem, speed: Any) -> tuple[float, ...]:
     listed = as_several(speed)
     if not listed:
         raise ProblemError("no speed is given")
-    return tuple(float(SPEED.accept(v.item() if hasattr(v, "item") else v)) for v in listed)
+    return tuple(float(SPEED.accept(v)) for v in listed)
 
 
 def _positive(value: Any, unit: str, *, alone: bool = True) -> float | None:

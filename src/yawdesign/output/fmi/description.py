@@ -5,7 +5,6 @@ from xml.etree import ElementTree
 
 from yawdesign import __version__
 from yawdesign.output.fmi.variables import Variable
-from yawdesign.output.texts import printable
 from yawdesign.problem.units import parse_unit
 
 IDENTIFIER = "yawdesign_bogie"
@@ -28,7 +27,7 @@ def model_description(table: Sequence[Variable], *, token: str, title: str) -> s
         fmiVersion="3.0",
         modelName=IDENTIFIER,
         instantiationToken=token,
-        description=printable(title),
+        description=title,
         generationTool=f"yawdesign {__version__}",
         variableNamingConvention="structured",
     )
