@@ -59,6 +59,7 @@ def test_c_program_finds_the_critical_damping_of_table_1(program):
     assert gradient == pytest.approx(found["gradient"].full().ravel(), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_c_program_with_another_bogie(program):
     p = {**yd.table1().bogie.parameters(), "v": 350 / 3.6, "lambda": 0.12}
     (expected,) = critical_damping(p, equations="as-printed").critical
@@ -67,6 +68,7 @@ def test_c_program_with_another_bogie(program):
     assert float(out.split()[1]) == pytest.approx(expected.C_s, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_c_program_says_what_is_wrong(program):
     # At 200 km/h the bogie is stable for every C_s: Newton's method ends, without an error, at what is no solution.
     assert "no critical damping found" in run(program, f"v={200 / 3.6}", code=3).stderr

@@ -113,6 +113,7 @@ def test_unstable_box_is_said(objective):
     assert not result.optimum_stable
 
 
+@pytest.mark.slow
 def test_user_options_win():
     """An iteration limit of the user reaches IPOPT: the NLP then stays where it starts, and the answer still stands."""
     problem = problem_of("decay_rate", "as-printed", C_s=yd.Variable(min=1e4, max=1e7))

@@ -90,6 +90,7 @@ def library(exported):
     return out
 
 
+@pytest.mark.slow
 def test_c_code_equals_casadi_to_the_last_digits(exported, library):
     to, task = exported
     for name, f in yd.functions(task).items():

@@ -172,7 +172,6 @@ def test_forward_design():
     assert "stable for none" in words(drawn(nothing))
 
 
-@pytest.mark.slow
 def test_optimum():
     variables = {"C_s": yd.Variable(min="10 kN s/m", max="10 MN s/m")}
     best = yd.optimise(PRINTED.replace(design=yd.Design(variables=variables)))
