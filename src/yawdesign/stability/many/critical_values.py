@@ -25,8 +25,8 @@ from yawdesign.stability.routh import TIME_UNIT
 Float = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-ACCURATE = 1e-9  # largest relative error of a critical value that rounding may cause
-ROUNDING = 4e-15  # of the coefficients
+ACCURATE = 5e-9  # largest relative error of a critical value that rounding may cause
+ROUNDING = 2e-15  # of the coefficients
 FAR = 1e60  # from a damping whose joint relaxes at 100 rad/s to where 0 and infinity are looked at
 CONVERGED = 1e-10  # relative length of the last step; Newton's method has then squared its error
 ITERATIONS = 100

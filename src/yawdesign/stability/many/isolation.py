@@ -19,7 +19,7 @@ CELLS = 40
 RANGE = (1e-4, 1e4)  # of the variable, in cells spaced geometrically; two more cells reach from zero and to infinity
 HALVINGS = 30
 MOST = 32  # open intervals of a polynomial: where more are open it is lost in rounding, and given up
-BLOCK = 256  # polynomials, whose Bernstein coefficients stay in a cache
+BLOCK = 1024  # polynomials, whose Bernstein coefficients stay in a cache
 ROUNDING = 3e-13  # of a value of the polynomial, relative to the size of what it is the sum of
 
 
@@ -78,9 +78,11 @@ def _isolate(F: Float, sizes: Sizes, offset: int) -> tuple[Any, Float, Float, An
     # The value at an edge is rounded in two ways; both cells must see the same sign, or a root there counts twice.
     coefficients[0, 1:-1] = coefficients[-1, :-2]
     coefficients[-1, -1] = np.copysign(coefficients[-1, -1], coefficients[-1, -2])
-    changes, certain = _sign_changes(coefficients, cells.rounding_at_first(n))
+    rounding = cells.rounding_at_first(n)
+    changes, certain = _sign_changes(coefficients, rounding)
     cell, owner = np.nonzero((changes > 0) | ~certain)
-    state: list[Any] = [owner, cell, np.zeros(len(cell)), np.ones(len(cell)), coefficients[:, cell, owner]]
+    state: list[Any] = [owner, cell, np.zeros(len(cell)), np.ones(len(cell)), rounding[cell, owner]]
+    state.append(coefficients[:, cell, owner])
     done, state = _sorted_out(state, changes[cell, owner], certain[cell, owner])
     pieces, given_up = [done], []
     for _ in range(HALVINGS):
@@ -90,8 +92,7 @@ def _isolate(F: Float, sizes: Sizes, offset: int) -> tuple[Any, Float, Float, An
         if not len(state[0]):
             break
         state = _halved(state)
-        owner, cell, _, right, b = state
-        done, state = _sorted_out(state, *_sign_changes(b, cells.rounding(cell, owner, right)))
+        done, state = _sorted_out(state, *_judged(state, cells))
         pieces.append(done)
     owner, cell, left, right = (np.concatenate([piece[k] for piece in pieces]) for k in range(4))
     start, end = cells.ends(cell, left, right)
@@ -142,6 +143,20 @@ def _farthest(F: Float) -> Float:
     return np.asarray(2 * np.exp(np.minimum(np.max(logarithms, axis=0), 300.0)))
 
 
+def _judged(state: list[Any], cells: "_Cells") -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
+    """Return the sign changes in intervals, and whether every coefficient is large enough to have a sign.
+
+    The rounding of an interval itself is computed only where that of a larger one leaves a sign open.
+    """
+    owner, cell, _, right, rounding, b = state
+    changes, certain = _sign_changes(b, rounding)
+    open_ = np.flatnonzero(~certain)
+    if len(open_):
+        rounding[open_] = cells.rounding(cell[open_], owner[open_], right[open_])
+        changes[open_], certain[open_] = _sign_changes(b[:, open_], rounding[open_])
+    return changes, certain
+
+
 def _sorted_out(
     state: list[Any], changes: NDArray[np.uint8], certain: NDArray[np.bool_]
 ) -> tuple[list[Any], list[Any]]:
@@ -152,7 +167,7 @@ def _sorted_out(
 
 def _halved(state: list[Any]) -> list[Any]:
     """Return both halves of all intervals (de Casteljau)."""
-    owner, cell, left, right, b = state
+    owner, cell, left, right, rounding, b = state
     middle = (left + right) / 2
     first, last, b = np.empty_like(b), np.empty_like(b), b.copy()
     for k in range(len(b)):
@@ -160,7 +175,10 @@ def _halved(state: list[Any]) -> list[Any]:
         b = (b[1:] + b[:-1]) / 2
     whole = np.concatenate([first, last], axis=1)
     return [
-        *(np.concatenate([x, y]) for x, y in ((owner, owner), (cell, cell), (left, middle), (middle, right))),
+        *(
+            np.concatenate([x, y])
+            for x, y in ((owner, owner), (cell, cell), (left, middle), (middle, right), (rounding, rounding))
+        ),
         whole,
     ]
 
