@@ -107,7 +107,8 @@ def spectrum(matrix: Float) -> Spectrum:
 def whole_vector(matrix: Float, states: Index, s: complex, vector: Complex) -> Complex:
     """Return the eigenvector of the whole matrix, given that of the part it belongs to.
 
-    A part may drive others that do not act back (the motors' yaw in the model as printed).
+    A part may drive others that do not act back (the motors' yaw in the model as printed). Where these have the same
+    root (a body that nothing holds: twice zero), only the driven part moves.
     """
     out = np.zeros(len(matrix), dtype=complex)
     out[states] = vector
@@ -115,7 +116,10 @@ def whole_vector(matrix: Float, states: Index, s: complex, vector: Complex) -> C
     if driven.size:
         force = matrix[np.ix_(driven, states)] @ vector
         free = s * np.eye(driven.size) - matrix[np.ix_(driven, driven)]
-        out[driven] = np.linalg.solve(free, force)
+        try:
+            out[driven] = np.linalg.solve(free, force)
+        except np.linalg.LinAlgError:
+            out[states], out[driven] = 0, np.linalg.svd(free)[2][-1].conj()
     return out
 
 
