@@ -103,10 +103,11 @@ def link(start: Place, end: Place) -> Link:
     change = end.matrix - start.matrix
     error = np.abs(_distance(p.s, q.s) - (p.velocity(change)[:, None] + q.velocity(change)) / 2)
     partner = _pairs(p, error)
-    certainty = _certainty(error, partner)
+    certainty = _certainty(p, q, error, partner)
     turned = _turned(p, q, partner)
     doubt = (certainty <= 1 - DOUBT) | turned
-    sure = not np.any(doubt) and bool(np.all(_most_alike(p, q) == partner))
+    alike = _most_alike(p, q)
+    sure = not np.any(doubt) and bool(np.all((alike == partner) | (q.s[alike] == q.s[partner])))
     return Link(start.value, end.value, partner, certainty, sure, tuple(int(k) for k in np.flatnonzero(doubt)), LOST)
 
 
@@ -121,12 +122,14 @@ def _pairs(p: Spectrum, error: Float) -> Index:
     return np.concatenate([np.arange(p.real), chosen + p.real, chosen + above]).astype(np.intp)
 
 
-def _certainty(error: Float, partner: Index) -> Float:
+def _certainty(p: Spectrum, q: Spectrum, error: Float, partner: Index) -> Float:
     """Return how much better each partner is predicted than any other root, seen from both ends."""
     n = np.arange(len(partner))
     own = error[n, partner]
+    # Roots that are one at both ends (zeros, of bodies that no spring holds) need not be told apart.
+    same = (p.s[:, None] == p.s) & (q.s[partner][:, None] == q.s[partner])
     others = error.copy()
-    others[n, partner] = np.inf
+    others[:, partner] = np.where(same, np.inf, error[:, partner])
     next_best = np.minimum(others.min(axis=1), others.min(axis=0)[partner])
     return np.asarray(1 - np.minimum(1, own / np.maximum(next_best, np.finfo(float).tiny)))
 

@@ -20,6 +20,7 @@ from yawdesign.bogie.vehicles import Parameters, bogie
 from yawdesign.stability.modes import Complex, Float
 
 Index = NDArray[np.intp]
+ZERO = 1e-13  # a root with less of the size of the matrix is zero
 
 
 @dataclass(frozen=True)
@@ -92,6 +93,7 @@ class Spectrum:
 def spectrum(matrix: Float) -> Spectrum:
     """Return the spectrum of a real matrix."""
     s, w, v = cast(tuple[Complex, Complex, Complex], sl.eig(matrix, left=True, right=True))
+    _set_zeros(matrix, s, w, v)
     real = np.flatnonzero(s.imag == 0)
     real = real[np.argsort(-s[real].real, kind="stable")]
     above = np.flatnonzero(s.imag > 0)
@@ -102,6 +104,23 @@ def spectrum(matrix: Float) -> Spectrum:
     scale = np.sum(w * v, axis=0)
     # Where two roots coincide the product vanishes; the vectors then say nothing, but they stay finite.
     return Spectrum(s, v, np.asarray(w / np.where(scale == 0, 1, scale), dtype=complex), len(real))
+
+
+def _set_zeros(matrix: Float, s: Complex, w: Complex, v: Complex) -> None:
+    """Make roots that are zero within rounding zero, with eigenvectors that belong together.
+
+    Bodies that no spring holds have such roots at every value of a parameter, and several of them are one to the last
+    digit: without this it were chance which is which, and whether they are a pair.
+    """
+    balanced, (scale, _) = sl.matrix_balance(matrix, permute=False, separate=True)
+    zero = np.flatnonzero(np.abs(s) <= ZERO * np.linalg.norm(balanced))
+    if not zero.size:
+        return
+    s[zero] = 0
+    left, size, right = np.linalg.svd(balanced)
+    if zero.size > 1 and size[-zero.size] <= ZERO * size[0]:
+        right, left = right[-zero.size :].T, left[:, -zero.size :]
+        v[:, zero], w[:, zero] = scale[:, None] * right, np.linalg.solve(right.T @ left, (left / scale[:, None]).T).T
 
 
 def whole_vector(matrix: Float, states: Index, s: complex, vector: Complex) -> Complex:
