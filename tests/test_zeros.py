@@ -125,6 +125,24 @@ def test_stationary_motion_with_each_zero(which):
                 yd.stationary_response(problem)
 
 
+@pytest.mark.parametrize("which", MODELS, ids=" ".join)
+def test_modes_are_followed_from_each_zero(which):
+    for kind, equations, (key,) in ALONE:
+        if (kind, equations) != which:
+            continue
+        problem = yd.table1(kind, equations=equations)
+        values = np.array([0, 0.5, 1]) * getattr(problem.bogie, field_name(key))
+        if key in ("C_s", "C_t", "C_m"):
+            with pytest.raises(yd.ProblemError, match="takes a damper out of the model"):
+                yd.follow_modes(problem, **{key: values})
+            continue
+        paths = yd.follow_modes(problem, **{key: values})
+        assert paths.evaluations < 2000, key
+        own = {mode.name: mode.eigenvalue for mode in yd.modes(problem).modes}
+        found = dict(zip(paths.names, paths.eigenvalues[-1], strict=True))
+        assert [found[name] for name in own] == pytest.approx(list(own.values()), rel=1e-6, abs=1e-6)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("which", MODELS, ids=" ".join)
 def test_functions_with_each_zero(which):

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from yawdesign.response.spectrum import Index, Spectrum
+from yawdesign.response.spectrum import Index, Spectrum, rounding
 from yawdesign.stability.modes import Complex, Float
 
 DOUBT = 0.25  # largest error of a partner's prediction, relative to that of the next best root
@@ -84,10 +84,18 @@ def follow(start: Place, end: Place, at: Callable[[float], Place], share: float 
     if step.sure:
         return [step]
     middle = between(start.value, end.value)
-    if share < FINEST or middle in (start.value, end.value):
+    if share < FINEST or middle in (start.value, end.value) or _are_one(start, end, step):
         return [_accepted(start.spectrum, end.spectrum, step)]
     between_them = at(middle)
     return follow(start, between_them, at, share / 2) + follow(between_them, end, at, share / 2)
+
+
+def _are_one(start: Place, end: Place, step: Link) -> bool:
+    """Return whether the roots in doubt are one within rounding at both ends: no smaller step tells them apart."""
+    p, q = start.spectrum.s, end.spectrum.s
+    roots = [k for k in step.meeting if p[k].imag >= 0 or q[step.partner[k]].imag >= 0]
+    ends = ((start.matrix, p[roots]), (end.matrix, q[step.partner[roots]]))
+    return len(roots) > 1 and all(np.abs(s - s[0]).max() <= rounding(matrix) for matrix, s in ends)
 
 
 def between(low: float, high: float) -> float:
@@ -105,10 +113,11 @@ def link(start: Place, end: Place) -> Link:
     partner = _pairs(p, error)
     certainty = _certainty(p, q, error, partner)
     turned = _turned(p, q, partner)
-    doubt = (certainty <= 1 - DOUBT) | turned
     alike = _most_alike(p, q)
-    sure = not np.any(doubt) and bool(np.all((alike == partner) | (q.s[alike] == q.s[partner])))
-    return Link(start.value, end.value, partner, certainty, sure, tuple(int(k) for k in np.flatnonzero(doubt)), LOST)
+    doubt = (certainty <= 1 - DOUBT) | turned | ((alike != partner) & (q.s[alike] != q.s[partner]))
+    return Link(
+        start.value, end.value, partner, certainty, not doubt.any(), tuple(np.flatnonzero(doubt).tolist()), LOST
+    )
 
 
 def _distance(s: Complex, other: Complex) -> Complex:

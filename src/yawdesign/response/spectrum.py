@@ -20,7 +20,7 @@ from yawdesign.bogie.vehicles import Parameters, bogie
 from yawdesign.stability.modes import Complex, Float
 
 Index = NDArray[np.intp]
-ZERO = 1e-13  # a root with less of the size of the matrix is zero
+ROUNDING = 1e-13  # relative to the size of the matrix
 
 
 @dataclass(frozen=True)
@@ -106,19 +106,24 @@ def spectrum(matrix: Float) -> Spectrum:
     return Spectrum(s, v, np.asarray(w / np.where(scale == 0, 1, scale), dtype=complex), len(real))
 
 
+def rounding(matrix: Float) -> float:
+    """Return the size of the error that an eigenvalue of a matrix must be expected to have [1/s]."""
+    return ROUNDING * float(np.linalg.norm(sl.matrix_balance(matrix, permute=False)[0]))
+
+
 def _set_zeros(matrix: Float, s: Complex, w: Complex, v: Complex) -> None:
     """Make roots that are zero within rounding zero, with eigenvectors that belong together.
 
     Bodies that no spring holds have such roots at every value of a parameter, and several of them are one to the last
     digit: without this it were chance which is which, and whether they are a pair.
     """
-    balanced, (scale, _) = sl.matrix_balance(matrix, permute=False, separate=True)
-    zero = np.flatnonzero(np.abs(s) <= ZERO * np.linalg.norm(balanced))
+    zero = np.flatnonzero(np.abs(s) <= rounding(matrix))
     if not zero.size:
         return
     s[zero] = 0
+    balanced, (scale, _) = sl.matrix_balance(matrix, permute=False, separate=True)
     left, size, right = np.linalg.svd(balanced)
-    if zero.size > 1 and size[-zero.size] <= ZERO * size[0]:
+    if zero.size > 1 and size[-zero.size] <= ROUNDING * size[0]:
         right, left = right[-zero.size :].T, left[:, -zero.size :]
         v[:, zero], w[:, zero] = scale[:, None] * right, np.linalg.solve(right.T @ left, (left / scale[:, None]).T).T
 
