@@ -50,8 +50,23 @@ def test_ride_over_a_sine_and_a_failing_damper(printed):
     assert np.linalg.eigvals(failed.A).real.max() > 0.5
 
 
+def python_of_the_page():
+    text = (ROOT / "docs" / "fmu.md").read_text(encoding="utf-8")
+    return [part.split("```")[0] for part in text.split("```python")[1:]]
+
+
+def test_the_lines_on_starting_alike(tmp_path):
+    yd.write_fmu(yd.table1(), tmp_path / "bogie.fmu")
+    code = python_of_the_page()[1]
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    stroke, run, fmu = map(float, done.stdout.split())
+    assert stroke == 0.01
+    assert fmu == pytest.approx(run, abs=1e-6)
+
+
 def test_the_lines_in_the_manual(tmp_path):
-    code = (ROOT / "docs" / "fmu.md").read_text(encoding="utf-8").split("```python")[1].split("```")[0]
+    code = python_of_the_page()[0]
     yd.write_fmu(yd.table1(), tmp_path / "bogie.fmu")
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")

@@ -26,10 +26,12 @@ ride["alignment_1"] = AMPLITUDE * np.sin(omega * (t + INTERVAL / 2))
 ride["alignment_2"] = AMPLITUDE * np.sin(omega * (t + INTERVAL / 2 - delay))
 ride["C_s"] = np.where(t < FAILURE, start["C_s"], FAILED)  # a tunable parameter may change on the way
 
-outputs = ["y_b", "F_s", "u_s"]
+FORCE, DISPLACEMENT = "yaw_damper_pair_force", "yaw_damper_displacement"
+outputs = ["y_b", FORCE, DISPLACEMENT]
 motion = fmpy.simulate_fmu(FMU, stop_time=END, output_interval=INTERVAL, input=ride, output=outputs)
 before = (motion["time"] > FAILURE - 1) & (motion["time"] < FAILURE)
 after = motion["time"] > END - 1
 print(f"frame, per mm of the track: {np.abs(motion['y_b'][before]).max() / AMPLITUDE:.4f} mm")
-print(f"yaw dampers: {np.abs(motion['F_s'][before]).max():.1f} N, {np.abs(motion['u_s'][before]).max() * 1e3:.5f} mm")
+force, displacement = (np.abs(motion[name][before]).max() for name in (FORCE, DISPLACEMENT))
+print(f"yaw dampers: {force:.1f} N, {displacement * 1e3:.5f} mm")
 print(f"frame after the failure, per mm of the track: {np.abs(motion['y_b'][after]).max() / AMPLITUDE:.4f} mm")

@@ -288,11 +288,38 @@ def test_state_space(model):
     x = np.linalg.solve(20j * np.eye(len(system.A)) - system.A, system.B[:, 0])
     y = dict(zip(system.outputs, system.C @ x, strict=True))
     p = task.bogie
-    assert y["F_s"] / y["u_s"] == pytest.approx(1 / (1 / p.K_ds + 1 / (p.C_s * 20j)), rel=1e-9)
-    assert y["u_s"] == pytest.approx(p.b_3 * y["phi_b"], rel=1e-12)
-    assert y["v_y_b"] == pytest.approx(20j * y["y_b"], rel=1e-9)
+    assert y["yaw_damper_pair_force"] / y["yaw_damper_displacement"] == pytest.approx(
+        1 / (1 / p.K_ds + 1 / (p.C_s * 20j)), rel=1e-9
+    )
+    assert y["yaw_damper_displacement"] == pytest.approx(p.b_3 * y["phi_b"], rel=1e-12)
+    assert y["y_b_velocity"] == pytest.approx(20j * y["y_b"], rel=1e-9)
     assert len(system.state_units) == len(system.states) == len(system.A)
     assert "alignment_1 [m], cross_level_1 [rad]" in repr(system)
+
+
+def test_old_names_of_states_and_outputs_are_found():
+    model = yd.state_space(yd.table1())
+    old = {"v_y_b": "y_b_velocity", "v_phi_m2": "phi_m2_velocity", "z_1": "yaw_damper_stroke"}
+    old |= {"z_2": "lateral_damper_stroke_1", "z_5": "motor_damper_stroke_2"}
+    for before, now in old.items():
+        assert model.states[model.states.index(before)] == now
+        assert before in model.states
+    assert [model.outputs.index(name) for name in ("F_s", "u_s")] == [20, 21]
+    assert "F_m" not in model.outputs
+    with pytest.raises(ValueError, match="not in tuple"):
+        model.states.index("z_6")
+
+
+def test_one_vocabulary_with_the_runs(model):
+    """What the state space calls its states and outputs is what a run gives by these names."""
+    problem = yd.table1(model["kind"], equations=model["equations"])
+    space = yd.state_space(problem)
+    history = yd.simulate(problem, duration="2 s").histories[0]
+    x = np.stack([history[name] for name in space.states], axis=1)
+    for k, (name, unit) in enumerate(zip(space.outputs, space.output_units, strict=True)):
+        assert history[name] == pytest.approx(x @ space.C[k], rel=1e-9, abs=1e-9 * np.abs(history[name]).max())
+        assert history.unit(name) == unit
+    assert history["yaw_damper_pair_force"] == pytest.approx(2 * history["yaw_damper_force"])
 
 
 def test_state_space_to_control():

@@ -120,13 +120,27 @@ def test_names_units_and_meanings_of_inputs_states_and_outputs(path):
     for kind in ("state", "input", "output"):
         for name, unit in zip(getattr(model, kind + "s"), getattr(model, kind + "_units"), strict=True):
             assert variables[name].unit == unit
-    outputs = {v.name for v in variables.values() if v.causality == "output"}
-    assert outputs == {*model.outputs, *(f"der({name})" for name in states if name.startswith("v_"))}
+    outputs = {v.name for v in variables.values() if v.causality == "output" and v.alias is None}
+    accelerations = {f"{name}_acceleration" for name in states if f"{name}_velocity" in states}
+    assert outputs == {*model.outputs, *accelerations, "yaw_damper_force", "F_s", "u_s"}
     assert variables["y_w2"].description == "lateral displacement of the rear wheelset"
-    assert variables["v_phi_b"].description == "rate of the yaw angle of the bogie frame"
+    assert variables["phi_b_velocity"].description == "rate of the yaw angle of the bogie frame"
     assert variables["cross_level_1"].description == "cross-level angle of the track under the front wheelset"
-    assert variables["z_1"].description == "stroke of the dashpot of the yaw dampers, without its joints"
-    assert variables["z_4"].description == "stroke of the dashpot of the front motor damper, without its joints"
+    assert variables["phi_w1_acceleration"].description == "yaw acceleration of the front wheelset"
+    text = "stroke of the dashpot of the {}, without its joints"
+    assert variables["yaw_damper_stroke"].description == text.format("yaw dampers")
+    assert variables["motor_damper_stroke_1"].description == text.format("front motor damper")
+
+
+def test_old_names_are_those_of_the_same_values(path):
+    variables = by_name(path)
+    pairs = {"v_y_b": "y_b_velocity", "z_1": "yaw_damper_stroke", "z_3": "lateral_damper_stroke_2"}
+    pairs |= {"der(v_phi_w1)": "der(phi_w1_velocity)", "der(z_5)": "der(motor_damper_stroke_2)"}
+    for old, new in pairs.items():
+        assert variables[old].valueReference == variables[new].valueReference
+    for old, new in (("F_s", "yaw_damper_pair_force"), ("u_s", "yaw_damper_displacement")):
+        assert variables[old].description == f"old name of {new}"
+        assert variables[old].unit == variables[new].unit
 
 
 def test_a_range_of_speeds_starts_with_the_highest(tmp_path):

@@ -146,7 +146,7 @@ def test_free_motion(written):
     A, _, names = matrices(problem)
     x0 = np.zeros(len(A))
     x0[names.index("y_w1")], x0[names.index("phi_b")], x0[len(names)] = 3e-3, -1e-3, 0.02
-    start = {"y_w1": 3e-3, "phi_b": -1e-3, "v_y_b": 0.02}
+    start = {"y_w1": 3e-3, "phi_b": -1e-3, "y_b_velocity": 0.02}
     times, found = simulated(path, names, stop_time=2.0, start_values=start)
     assert_close(found, exact(A, x0, times)[:, : len(names)])
 
@@ -233,16 +233,49 @@ def test_a_parameter_changed_on_the_way_acts_at_once(table1_fmu, opened, tmp_pat
 
 def test_force_and_stroke_of_the_yaw_damper(table1_fmu, opened):
     p = TABLE_1.bogie.parameters()
-    unit = opened(table1_fmu, phi_b=2e-3, z_1=5e-4)
-    stroke, force = unit.get("u_s", "F_s")
+    unit = opened(table1_fmu, phi_b=2e-3, yaw_damper_stroke=5e-4)
+    stroke, force, each = unit.get("yaw_damper_displacement", "yaw_damper_pair_force", "yaw_damper_force")
+    assert unit.get("u_s", "F_s", "z_1") == [stroke, force, 5e-4]
+    assert each == force / 2
     assert stroke == pytest.approx(p["b_3"] * 2e-3, rel=1e-15)
     assert force == pytest.approx(p["K_ds"] * (p["b_3"] * 2e-3 - 5e-4), rel=1e-14)
     # In the equation of the frame's yaw the force acts at b_3, and nothing else knows the dashpot.
-    (before,) = unit.get("der(v_phi_b)")
-    unit.set({"z_1": 0.0})
-    after, more = unit.get("der(v_phi_b)", "F_s")
+    (before,) = unit.get("der(phi_b_velocity)")
+    unit.set({"yaw_damper_stroke": 0.0})
+    after, more, acceleration = unit.get("der(phi_b_velocity)", "yaw_damper_pair_force", "phi_b_acceleration")
+    assert acceleration == after
     assert more - force == pytest.approx(p["K_ds"] * 5e-4, rel=1e-12)
     assert after - before == pytest.approx(-p["b_3"] * (more - force) / p["J_b"], rel=1e-12)
+
+
+@pytest.mark.parametrize("start", [{"start": "offset"}, {"start": "offset", "offset": {"y_b": 4e-3, "phi_b": 2e-3}}])
+def test_a_run_and_the_fmu_started_alike_move_alike(written, start):
+    """States have one name: what a run starts with starts the FMU, and all that both give has the same numbers."""
+    problem, path = written
+    run = yd.simulate(problem, "smooth", speed=max(problem.speeds), duration="2 s", step="1 ms", **start).histories[0]
+    states = yd.state_space(problem.replace(speed=max(problem.speeds))).states
+    outputs = {v.name for v in fmpy.read_model_description(str(path)).modelVariables if v.causality == "output"}
+    names = sorted({*outputs, *states} & set(run.values))
+    assert {"y_b_acceleration", "yaw_damper_force", "yaw_damper_pair_force", "lateral_damper_stroke_2"} <= set(names)
+    given = {name: run[name][0] for name in states}
+    times, found = simulated(path, names, stop_time=2.0, start_values=given, output=names)
+    at = [int(np.argmin(np.abs(run.time - t))) for t in times]
+    assert run.time[at] == pytest.approx(times, abs=1e-9)
+    for k, name in enumerate(names):
+        assert np.abs(found[:, k] - run[name][at]).max() <= 1e-5 * np.abs(run[name]).max(), name
+
+
+def test_strokes_of_dampers_at_rest_are_their_displacements(written):
+    problem, _ = written
+    p, offset = problem.bogie.parameters(), {"y_b": 4e-3, "phi_b": 2e-3, "y_w1": 1e-3}
+    run = yd.simulate(problem, "smooth", start="offset", offset=offset, duration="1 s").histories[0]
+    front, rear = 4e-3 + p["b_0"] * 2e-3, 4e-3 - p["b_0"] * 2e-3
+    strokes = ("yaw_damper_stroke", "lateral_damper_stroke_1", "lateral_damper_stroke_2")
+    assert [run[name][0] for name in strokes] == pytest.approx([p["b_3"] * 2e-3, front, rear])
+    assert run["yaw_damper_pair_force"][0] == pytest.approx(0, abs=1e-6)
+    if problem.bogie.kind == "power":
+        expected = [4e-3 + p["a_0"] * 2e-3, 4e-3 - p["a_0"] * 2e-3]
+        assert [run[f"motor_damper_stroke_{k}"][0] for k in (1, 2)] == pytest.approx(expected)
 
 
 def test_a_damper_without_damping_is_left_out(tmp_path):
@@ -252,17 +285,17 @@ def test_a_damper_without_damping_is_left_out(tmp_path):
     A, _, names = matrices(problem)
     assert len(A) == 22
     variables = {v.name: v.description for v in fmpy.read_model_description(str(path)).modelVariables}
-    assert not {"C_s", "C_t", "z_3"} & set(variables)
-    assert "front motor damper" in variables["z_1"]
-    assert "rear motor damper" in variables["z_2"]
-    times, found = simulated(str(path), [*names, "F_s"], stop_time=0.5, start_values={"y_w1": 1e-3})
+    assert not {"C_s", "C_t", "z_3", "yaw_damper_stroke", "lateral_damper_stroke_1"} & set(variables)
+    assert "front motor damper" in variables["motor_damper_stroke_1"]
+    assert variables["z_2"] == "another name of motor_damper_stroke_2"
+    times, found = simulated(str(path), [*names, "yaw_damper_pair_force"], stop_time=0.5, start_values={"y_w1": 1e-3})
     assert_close(found[:, :-1], exact(A, np.eye(22)[names.index("y_w1")] * 1e-3, times)[:, : len(names)])
     assert not found[:, -1].any()
 
 
 def test_a_state_can_be_kept_and_taken_up_again(table1_fmu, opened):
     unit = opened(table1_fmu, y_b=1e-3, C_s=2e5)
-    names = ("y_b", "C_s", "der(v_y_b)", "F_s")
+    names = ("y_b", "C_s", "der(y_b_velocity)", "yaw_damper_pair_force")
     before = unit.get(*names)
     kept = unit.fmu.getFMUState()
     as_bytes = unit.fmu.serializeFMUState(kept)
@@ -324,7 +357,7 @@ def test_values_without_a_meaning_are_refused(table1_fmu, opened, name, value):
 
 def test_calculated_variables_cannot_be_set(table1_fmu, opened):
     unit = opened(table1_fmu)
-    for name in ("F_s", "der(y_b)", "time"):
+    for name in ("yaw_damper_pair_force", "der(y_b)", "time"):
         with pytest.raises(FMICallException, match="error"):
             unit.set({name: 1.0})
     with pytest.raises(FMICallException, match="error"):

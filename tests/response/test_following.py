@@ -203,3 +203,74 @@ def test_a_range_of_speeds_is_refused_unless_the_speed_varies():
     with pytest.raises(yd.ProblemError, match="followed at one speed"):
         yd.follow_modes(problem, C_s=[1e5, 1e6])
     assert yd.follow_modes(problem, v=[50, 60]).speed is None
+
+
+def names_of(problem):
+    return {mode.name: mode.eigenvalue for mode in yd.modes(problem).modes}
+
+
+def assert_same_names(paths, k, named):
+    """Every root at the place k of a path has the name that it has by itself."""
+    assert len(named) == np.count_nonzero(~np.isnan(paths.eigenvalues[k]))
+    for name, s in named.items():
+        found = paths.eigenvalues[k, paths.names.index(name)]
+        assert found == pytest.approx(s, rel=1e-6, abs=1e-6)
+
+
+PATHS = ["v", *parameter_keys("power")]
+
+
+@pytest.mark.parametrize("name", PATHS)
+def test_a_root_has_one_name_however_it_is_followed(random_bogies, name):
+    for p, model in random_bogies(8, seed=PATHS.index(name)):
+        if name not in ("v", *parameter_keys(model["kind"])):
+            continue
+        problem = problem_of(p, model)
+        own = {**p, "C_s": 4e5}[name]
+        named = names_of(problem)
+        for factors in ([0.8, 1, 1.25], [1, 1.6], [1.3, 1]):
+            values = np.array(factors) * own
+            assert_same_names(yd.follow_modes(problem, **{name: values}), factors.index(1), named)
+
+
+@given(seed=st.integers(0, 2**32 - 1), name=st.sampled_from(PATHS))
+@settings(max_examples=25, deadline=None)
+def test_the_part_of_an_axis_that_is_looked_at_changes_no_name(random_bogies, seed, name):
+    p, model = next(iter(random_bogies(1, seed=seed)))
+    name = "C_s" if name not in ("v", *parameter_keys(model["kind"])) else name
+    problem, own = problem_of(p, model), {**p, "C_s": 4e5}[name]
+    whole = yd.follow_modes(problem, **{name: np.array([0.7, 0.8, 1, 1.3, 1.5]) * own})
+    if not whole.checked:
+        return
+    for part in ([0.7, 0.8], [1.5, 1.3]):  # away from the problem's own value, on either side of it
+        paths = yd.follow_modes(problem, **{name: np.array(part) * own})
+        k = int(np.flatnonzero(np.isclose(whole.values, paths.values[0]))[0])
+        for mode, s in zip(paths.names, paths.eigenvalues[0], strict=True):
+            if not np.isnan(s):
+                assert whole.eigenvalues[k, whole.names.index(mode)] == pytest.approx(s, rel=1e-6, abs=1e-6)
+
+
+def test_names_where_the_problem_has_no_value_of_its_own():
+    values = [2e5, 1e6, 3e6]
+    paths = yd.follow_modes(yd.table1().replace(C_s=None), C_s=values)
+    assert_same_names(paths, 0, names_of(yd.table1().replace(C_s=2e5)))
+    paths = yd.follow_modes(yd.table1().replace(C_s=0), C_s=values[::-1])
+    assert_same_names(paths, 2, names_of(yd.table1().replace(C_s=2e5)))
+
+
+def test_names_of_a_range_of_speeds_are_those_of_its_modes():
+    problem = yd.table1().replace(speed=yd.SpeedRange(min="200 km/h", max="300 km/h"))
+    result = yd.modes(problem)
+    paths = yd.follow_modes(problem, v=[40.0, result.speed])
+    assert_same_names(paths, 1, {mode.name: mode.eigenvalue for mode in result.modes})
+
+
+def test_two_real_roots_of_a_pair_are_told_apart():
+    problem = yd.table1().replace(C_m="1 kN s/m", C_s=1e5)
+    paths = yd.follow_modes(problem, C_mphi=np.geomspace(11e3, 1e6, 9))
+    pair = [name for name in paths.names if name.startswith("motor yaw, against each other")]
+    assert sorted(pair) == ["motor yaw, against each other", "motor yaw, against each other, second root"]
+    first, second = (paths.eigenvalues[-1, paths.names.index(name)] for name in sorted(pair, key=len))
+    assert first.imag == second.imag == 0
+    assert first.real > second.real
+    assert np.isnan(paths.eigenvalues[0, paths.names.index(max(pair, key=len))])

@@ -5,8 +5,9 @@ import pytest
 
 import yawdesign as yd
 from yawdesign.bogie.assembly import StateSpace, folded, physical
+from yawdesign.bogie.signals import unit_of
 from yawdesign.bogie.vehicles import bogie
-from yawdesign.response.system import system_at, unit_of
+from yawdesign.response.system import system_at
 
 
 @pytest.fixture(params=["power", "trailer"])

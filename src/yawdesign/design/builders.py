@@ -36,7 +36,7 @@ def _core(draft: Draft) -> tuple[Polynomial, str]:
     p, C_s = _all(draft)
     c = characteristic(p, **draft.setting.model)
     core = scale_variable(c.core(C_s), TIME_UNIT)
-    return trim(core, lambda a: bool(a.is_zero() if isinstance(a, ca.SX) else a == 0)), _unit(c, p, draft)
+    return _trimmed(core), _unit(c, p, draft)
 
 
 def _unit(c: Characteristic, p: Mapping[str, Any], draft: Draft) -> str:
@@ -46,6 +46,11 @@ def _unit(c: Characteristic, p: Mapping[str, Any], draft: Draft) -> str:
     yaw = sum(x.startswith("phi") for x in coordinates)
     # A factor is the yaw of the motors, one coordinate.
     return f"(N/m)^{len(coordinates) - yaw}·(N·m)^{yaw - len(c.factors)}"
+
+
+def _trimmed(p: Polynomial) -> Polynomial:
+    """Return a polynomial without the highest powers that a damper without damping leaves out."""
+    return trim(p, lambda a: bool(a.is_zero() if isinstance(a, ca.SX) else a == 0))
 
 
 def state_matrix(draft: Draft) -> None:
@@ -88,7 +93,7 @@ def hurwitz_minors(draft: Draft) -> None:
     """Hurwitz minors of eq. (10): stable exactly if all signs are +1. Their values would overflow."""
     p, C_s = _all(draft)
     chi = paper_coefficients(p, C_s, **draft.setting.model, unit=TIME_UNIT)
-    signs, logarithms = generic_minors(chi, functions=ca)
+    signs, logarithms = generic_minors(tuple(reversed(_trimmed(tuple(reversed(chi))))), functions=ca)
     draft.output("sign", "-", "signs of Delta_1, Delta_2, ...", signs)
     draft.output("log10", "-", "log10 |Delta_1|, log10 |Delta_2|, ... in SI units", logarithms)
 
@@ -131,6 +136,8 @@ def rotational_resistance_function(draft: Draft) -> None:
     """Rotational resistance in the curve, eq. (13), and the damping that the curve allows, eq. (14)."""
     if draft.setting.load is None:
         raise ProblemError("rotational_resistance needs a curve, and the problem has none")
+    if not draft.setting.curves:
+        raise ProblemError("rotational_resistance is T / (4 Q a), and the axle load W is 0: let it be an input")
     p = draft.parameters(("W", "a", "b_0", "b_2", "b_3", "K_2x", "C_t", "C_s"))
     curve: Any = SimpleNamespace(**draft.parameters(tuple(CURVE)), load=draft.setting.load)
     load = LOADS[draft.setting.load]

@@ -89,6 +89,11 @@ class Setting:
         return tuple(key for key in self.values if key not in CURVE and key != "C_s")
 
     @property
+    def curves(self) -> bool:
+        """Whether there is a rotational resistance: a curve, and an axle load that is not fixed at 0."""
+        return self.load is not None and ("W" in self.open or self.values["W"] != 0)
+
+    @property
     def examples(self) -> dict[str, float]:
         """Values of all parameters; where the problem has none those of the paper, and its largest speed."""
         usual = {"C_s": float(PARAMETERS["C_s"].check(PARAMETERS["C_s"].example)), "v": self.top_speed}

@@ -113,7 +113,8 @@ def functions(
         Parameters that stay inputs: symbols of Table I, ``v``, and R, L, l, V_r and limit of the curve. All of them if
         not given. A text is split at its commas.
     only : collection of str, optional
-        Names of the functions; all if not given (without a curve all but ``rotational_resistance``).
+        Names of the functions; all if not given (without a curve, or with an axle load that is 0 and no input, all but
+        ``rotational_resistance``).
 
     Returns
     -------
@@ -147,7 +148,7 @@ def listed(names: Collection[str]) -> tuple[str, ...]:
 
 def _wanted(only: Collection[str] | None, setting: Setting) -> tuple[str, ...]:
     if only is None:
-        return tuple(name for name in BUILDERS if name != "rotational_resistance" or setting.load)
+        return tuple(name for name in BUILDERS if name != "rotational_resistance" or setting.curves)
     mistakes = Mistakes()
     names = listed(only)
     for name in names:

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import casadi as ca
 
 from yawdesign.bogie.assembly import StateSpace, physical
-from yawdesign.bogie.vehicles import Parameters, bogie
+from yawdesign.bogie.signals import DAMPERS, OLD_OUTPUTS, YAW_FORCE, SignalNames, acceleration
+from yawdesign.bogie.vehicles import YAW_DAMPER, Parameters, bogie
 from yawdesign.design.functions import c_source, work_sizes
 from yawdesign.design.states import state_names, state_space_matrices
 
@@ -24,18 +25,19 @@ class EquationsOfMotion:
     parameters : tuple of str
         Symbols of Table I, `C_s` and ``v``, without the damping of dampers that are not there.
     inputs, states : tuple of str
-        Names as in `yawdesign.state_space`.
+        Names as in `yawdesign.state_space` and `yawdesign.simulate`.
     dashpots : tuple of str
         Names of the dampers to which the last states belong.
     outputs : tuple of str
-        Force ``F_s`` and displacement ``u_s`` of the pair of yaw dampers.
+        Accelerations ``y_b_acceleration``, ...; ``yaw_damper_force``, ``yaw_damper_pair_force`` and
+        ``yaw_damper_displacement``, and the last two again by the names of version 0.1.
     function : casadi.Function
         Inputs ``p``, ``u``, ``x``, vectors in the orders above, SI; outputs ``dx`` and ``y``.
     """
 
     parameters: tuple[str, ...]
     inputs: tuple[str, ...]
-    states: tuple[str, ...]
+    states: SignalNames
     dashpots: tuple[str, ...]
     outputs: tuple[str, ...]
     function: ca.Function
@@ -57,7 +59,7 @@ def equations_of_motion(p: Parameters, model: Mapping[str, str]) -> EquationsOfM
     >>> from yawdesign import table1
     >>> motion = equations_of_motion({**table1().bogie.parameters(), "v": 83.0}, {"kind": "power"})
     >>> len(motion.states), motion.states[0], motion.states[10], motion.states[20], motion.dashpots[0]
-    (25, 'y_b', 'v_y_b', 'z_1', 'yaw damper')
+    (25, 'y_b', 'y_b_velocity', 'yaw_damper_stroke', 'yaw damper')
     """
     absent = {name: 0 for name in IN_SERIES if name in p and p[name] < LEAST_DAMPING}
     names = tuple(name for name in p if name not in absent)
@@ -66,10 +68,13 @@ def equations_of_motion(p: Parameters, model: Mapping[str, str]) -> EquationsOfM
     along = state_names(symbols, symbols["C_s"], model)
     u, x = ca.SX.sym("u", len(along.inputs)), ca.SX.sym("x", len(along.states))
     A, B, C, _ = state_space_matrices(symbols, symbols["C_s"], model).values()
-    dx, y = ca.densify(A @ x + B @ u), ca.densify((C @ x)[-2:])
+    dx, coordinates = ca.densify(A @ x + B @ u), (len(along.outputs) - len(OLD_OUTPUTS)) // 2
+    accelerations, of_damper = dx[coordinates : 2 * coordinates], ca.densify((C @ x)[-len(OLD_OUTPUTS) :])
+    y = ca.vertcat(accelerations, of_damper[0] / DAMPERS[YAW_DAMPER], of_damper, of_damper)
     function = ca.Function("equations_of_motion", [vector, u, x], [dx, y], ["p", "u", "x"], ["dx", "y"])
     dashpots = tuple(link.name for link, _ in StateSpace(physical(bogie(symbols, **model))).strokes)
-    return EquationsOfMotion(names, along.inputs, along.states, dashpots, along.outputs[-2:], function)
+    outputs = (*map(acceleration, along.states[:coordinates]), YAW_FORCE, *OLD_OUTPUTS.values(), *OLD_OUTPUTS)
+    return EquationsOfMotion(names, along.inputs, along.states, dashpots, outputs, function)
 
 
 def motion_source(motion: EquationsOfMotion) -> tuple[str, Mapping[str, int]]:

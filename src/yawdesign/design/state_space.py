@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from yawdesign.bogie.signals import SignalNames
 from yawdesign.design.functions import functions
 from yawdesign.design.states import state_names
 from yawdesign.problem import Problem, ProblemError
@@ -23,9 +24,10 @@ class StateSpaceModel(Result):
     A, B, C, D : ndarray
         Matrices, SI: 25 states (15 without motors), 4 inputs.
     states, inputs, outputs : tuple of str
-        Names: coordinates ``y_b``, their velocities ``v_y_b``, dashpot strokes ``z_1``; ``alignment_1``,
-        ``cross_level_1``, ...; coordinates, velocities, force ``F_s`` and displacement ``u_s`` of the pair of yaw
-        dampers.
+        Names: coordinates ``y_b``, their velocities ``y_b_velocity``, the dampers' strokes ``yaw_damper_stroke``, ...;
+        ``alignment_1``, ``cross_level_1``, ...; coordinates, velocities, ``yaw_damper_pair_force`` and
+        ``yaw_damper_displacement``. They are those of `yawdesign.simulate`. The names before, ``v_y_b``, ``z_1``,
+        ``F_s`` and ``u_s``, are found by ``index`` until the next version.
     state_units, input_units, output_units : tuple of str
         SI units in the same order.
     C_s, speed : float
@@ -38,9 +40,9 @@ class StateSpaceModel(Result):
     B: Float
     C: Float
     D: Float
-    states: tuple[str, ...]
+    states: SignalNames
     inputs: tuple[str, ...]
-    outputs: tuple[str, ...]
+    outputs: SignalNames
     state_units: tuple[str, ...]
     input_units: tuple[str, ...]
     output_units: tuple[str, ...]

@@ -9,6 +9,7 @@ import casadi as ca
 from yawdesign.bogie.assembly import StateSpace, physical
 from yawdesign.bogie.elements import Link, Maxwell, Single
 from yawdesign.bogie.polynomials import Number
+from yawdesign.bogie.signals import PAIR_FORCE, YAW_DISPLACEMENT, SignalNames, of_damper, unit_of, velocity
 from yawdesign.bogie.vehicles import YAW_DAMPER, Parameters, bogie
 
 
@@ -19,15 +20,16 @@ class Names:
     Parameters
     ----------
     states, inputs, outputs : tuple of str
-        Coordinates ``y_b``, velocities ``v_y_b``, dashpot strokes ``z_1``; track inputs; coordinates, velocities,
-        and force ``F_s`` and displacement ``u_s`` of the pair of yaw dampers.
+        Coordinates ``y_b``, velocities ``y_b_velocity``, dampers' strokes ``yaw_damper_stroke``; track inputs;
+        coordinates, velocities, ``yaw_damper_pair_force`` and ``yaw_damper_displacement``. See `SignalNames` for what
+        they were called before.
     state_units, input_units, output_units : tuple of str
         In the same order.
     """
 
-    states: tuple[str, ...]
+    states: SignalNames
     inputs: tuple[str, ...]
-    outputs: tuple[str, ...]
+    outputs: SignalNames
     state_units: tuple[str, ...]
     input_units: tuple[str, ...]
     output_units: tuple[str, ...]
@@ -42,22 +44,11 @@ def state_names(p: Parameters, C_s: Number, model: Mapping[str, str]) -> Names:
     """Return the names that belong to `state_space_matrices`. Arguments as there."""
     _, system = _assembled(p, C_s, model)
     x = system.coordinates
-    strokes = tuple(f"z_{k + 1}" for k in range(system.size - 2 * len(x)))
-    moves = (*x, *(f"v_{name}" for name in x))
-    units = tuple(_unit(name) for name in x)
-    units += tuple(f"{unit}/s" for unit in units)
-    return Names(
-        states=(*moves, *strokes),
-        inputs=system.input_names,
-        outputs=(*moves, "F_s", "u_s"),
-        state_units=units + ("m",) * len(strokes),
-        input_units=tuple(_unit(name) for name in system.input_names),
-        output_units=(*units, "N", "m"),
-    )
-
-
-def _unit(name: str) -> str:
-    return "rad" if name.startswith(("phi", "cross_level")) else "m"
+    moves = (*x, *(velocity(name) for name in x))
+    states = SignalNames((*moves, *(of_damper(link.name, "stroke") for link, _ in system.strokes)))
+    outputs = SignalNames((*moves, PAIR_FORCE, YAW_DISPLACEMENT))
+    units = [tuple(map(unit_of, names)) for names in (states, system.input_names, outputs)]
+    return Names(states, system.input_names, outputs, *units)
 
 
 def state_space_matrices(p: Parameters, C_s: Number, model: Mapping[str, str]) -> dict[str, ca.SX]:

@@ -37,7 +37,8 @@ def modes_tables(result: "Modes") -> RenderableType:
         numbers = (frequency, f"{100 * mode.damping_ratio:.2f}", f"{mode.decay_rate:.4g}")
         table.add_row(mode.name, *numbers, _shares(mode.participation))
     checked = "yes, by two independent ways" if result.checked else "NO: the two ways differ"
-    return Group(table, Text(f"checked: {checked}"))
+    hunting = result.hunting or "none: nothing that oscillates depends on the conicity"
+    return Group(table, Text(f"hunting: {hunting}"), Text(f"checked: {checked}"))
 
 
 def _shares(participation: "Mapping[str, float]") -> str:

@@ -80,7 +80,7 @@ def _shown(result: "Simulation", name: str, values: Mapping[str, float]) -> str:
 
 def _forces(result: "Simulation") -> Table:
     table = _table(f"Forces and strokes at {speed(result.speed)}", "", "RMS", "peak", "unit")
-    for name in (x for x in result.rms if "force" in x or "stroke" in x):
+    for name in (x for x in result.rms if any(what in x for what in ("force", "stroke", "damper"))):
         unit = SHOWN[result.histories[0].unit(name)][1]
         table.add_row(meaning(name), *(_shown(result, name, values) for values in _both(result)), unit)
     return table

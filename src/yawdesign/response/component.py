@@ -63,7 +63,7 @@ class DamperComponent(Result):
     corner_frequency : float
         K_ds / (2 pi C_s) [Hz]: above it the joints give way more than the damper.
     hunting_frequency : float or None
-        Of the least damped oscillation of the coupled motion [Hz].
+        Of the hunting, the mode that `yawdesign.modes` calls so [Hz].
     at_hunting : DynamicStiffness or None
         There.
     over_frequency : tuple of DynamicStiffness

@@ -1,8 +1,9 @@
-"""Modes followed through a sweep of one parameter, each keeping its identity and its name."""
+"""Modes followed through a sweep of one parameter, each keeping its identity and the name it has in the problem."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -15,13 +16,13 @@ from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import Parameter, as_several
-from yawdesign.response.linking import LOST, Place
-from yawdesign.response.modes import name_roots, parameters_at
-from yawdesign.response.names import groups_of, normalised, shares, unique_names
-from yawdesign.response.spectrum import Index, Motion, motion, parts, spectrum
-from yawdesign.response.walking import Encounter, walk
+from yawdesign.response.linking import LOST
+from yawdesign.response.modes import parameters_at
+from yawdesign.response.names import named_roots
+from yawdesign.response.paths import Path, follow_part, names_at_home, size
+from yawdesign.response.spectrum import Index, Motion, motion, parts
 from yawdesign.stability.modes import Complex, Float, backward_error
-from yawdesign.stability.verdict import EXACT, given_damping
+from yawdesign.stability.verdict import EXACT, given_damping, stability
 
 SPEED_NAMES = ("v", "speed")
 MOST_VALUES = 10_000  # of the parameter: about a minute and 0.3 GB
@@ -66,7 +67,9 @@ class FollowedModes(Result):
     values : ndarray, shape (points,)
         Its values.
     names : tuple of str
-        Of the modes, after what takes part in each most on the average of all points.
+        Of the modes: what `modes` calls each at the problem's own value of the parameter, wherever that lies (at the
+        speed that `modes` takes; at the least value of the axis, if the problem has none of its own). Of a pair that
+        has become two real roots, the second one is called so.
     eigenvalues : ndarray, shape (points, modes)
         [1/s], on the real axis or above it. A pair of conjugate roots is one mode, a real root is one. Where two real
         modes meet and become a pair, the mode of the larger root goes on as the pair, and the other is nan until the
@@ -137,12 +140,14 @@ def follow_modes(problem: Problem, **axis: Sequence[float | str] | NDArray[np.fl
     matrices = _matrices(problem, name)
     systems = [matrices(value) for value in values]
     _check_states(name, systems)
-    places = parts(np.any([system.matrix != 0 for system in systems], axis=0))
-    paths = [_follow_part(values, matrices, states) for states in places]
+    home = _home(problem, name, values, matrices)
+    places = parts(np.any([system.matrix != 0 for system in (*systems, matrices(home))], axis=0))
+    paths = [follow_part(values, home, matrices, states) for states in places]
     branches = np.hstack([path.s for path in paths])
     kept = np.flatnonzero(np.any(branches.imag >= 0, axis=0))
-    kept = kept[np.argsort(_size(branches[:, kept]), kind="stable")]
-    names = _names(systems[0], places, paths, kept)
+    kept = kept[np.argsort(size(branches[:, kept]), kind="stable")]
+    all_names = _names(problem, name, home, places, paths)
+    names = tuple(all_names[k] for k in kept)
     s = np.where(branches.imag >= 0, branches, complex(np.nan, np.nan))[:, kept]
     certainty = np.hstack([path.certainty for path in paths])[:, kept]
     label = {int(k): mode for k, mode in zip(kept, names, strict=True)}
@@ -156,7 +161,7 @@ def follow_modes(problem: Problem, **axis: Sequence[float | str] | NDArray[np.fl
         names=names,
         eigenvalues=s,
         frequency=s.imag / (2 * np.pi),
-        damping_ratio=-s.real / np.abs(s),
+        damping_ratio=-s.real / np.where(s == 0, 1, np.abs(s)),
         certainty=certainty,
         meetings=meetings,
         speed=None if name == "v" else float(problem.speeds[0]),
@@ -200,16 +205,32 @@ def _values(key: str, row: Parameter, given: Any) -> Float:
     return np.array(values)
 
 
+def _numbers(problem: Problem, name: str, value: Any) -> tuple[dict[str, Any], Any]:
+    """Return the parameters and the yaw damping of a problem's bogie at a value, or values, of the axis."""
+    p = {**parameters_at(problem, problem.speeds[0]), name: value}
+    return p, value if name == "C_s" else given_damping(problem)
+
+
 def _matrices(problem: Problem, name: str) -> Any:
     """Return a function that returns, and remembers, the motion at a value of the axis."""
-    p, model = parameters_at(problem, problem.speeds[0]), problem.model
-    C_s = None if name == "C_s" else given_damping(problem)
 
     @cache
     def at(value: float) -> Motion:
-        return motion({**p, name: value}, value if C_s is None else C_s, **model)
+        p, C_s = _numbers(problem, name, value)
+        return motion(p, C_s, **problem.model)
 
     return at
+
+
+def _home(problem: Problem, name: str, values: Float, matrices: Callable[[float], Motion]) -> float:
+    """Return the problem's own value of the axis, where the modes get their names.
+
+    Where the problem has none, or there has a damper less than along the axis, it is the least one of the axis.
+    """
+    own = stability(problem).speed if name == "v" else parameters_at(problem, problem.speeds[0]).get(name)
+    if own is None or len(matrices(own).matrix) != len(matrices(float(values[0])).matrix):
+        return float(values.min())
+    return own
 
 
 def _check_states(name: str, systems: Sequence[Motion]) -> None:
@@ -217,77 +238,25 @@ def _check_states(name: str, systems: Sequence[Motion]) -> None:
         raise ProblemError(f"{name}: the value 0 takes a damper out of the model; start above it")
 
 
-@dataclass(frozen=True)
-class _Path:
-    """One part of the motion: its roots along the axis, shape (points, roots), each column the same root."""
-
-    states: tuple[str, ...]
-    s: Complex
-    share: Float
-    twin: Index
-    certainty: Float
-    encounters: tuple[Encounter, ...]
+def _names(problem: Problem, name: str, home: float, places: Sequence[Index], paths: Sequence[Path]) -> list[str]:
+    p, C_s = _numbers(problem, name, home)
+    _, roots = named_roots(p, C_s, **problem.model)
+    named = (names_at_home(path, states, roots) for path, states in zip(paths, places, strict=True))
+    return list(chain.from_iterable(named))
 
 
-def _follow_part(values: Float, matrices: Callable[[float], Motion], states: Index) -> _Path:
-    @cache
-    def at(value: float) -> Place:
-        matrix = matrices(value).matrix[np.ix_(states, states)]
-        return Place(value, matrix, spectrum(matrix))
-
-    walked = walk(values, at)
-    given = np.flatnonzero(np.isin(walked.values, values))
-    # An order of the paths that does not depend on the direction of the walk.
-    sort = np.lexsort((-walked.s[given].imag.mean(axis=0), _size(walked.s[given])))
-    system, places = matrices(float(values[0])), [at(float(value)) for value in values]
-    order, names = walked.order[np.ix_(given, sort)], tuple(system.states[i] for i in states)
-    share = [shares(place.spectrum, names, groups_of(system))[:, k] for place, k in zip(places, order, strict=True)]
-    rank = np.argsort(sort)
-    return _Path(
-        states=names,
-        s=walked.s[np.ix_(given, sort)],
-        share=normalised(np.mean(share, axis=0)),
-        twin=_twins(places, order),
-        certainty=np.minimum.reduceat(walked.certainty, given[:-1])[:, sort],
-        encounters=tuple(replace(e, roots=tuple(rank[list(e.roots)].tolist())) for e in walked.encounters),
-    )
-
-
-def _twins(places: Sequence[Place], order: NDArray[np.intp]) -> Index:
-    """Return for each path its conjugate, or itself where it is real: at the least of the values with most pairs."""
-    k = min(range(len(places)), key=lambda i: (places[i].spectrum.real, places[i].value))
-    return np.asarray(np.argsort(order[k])[places[k].spectrum.twin[order[k]]], dtype=np.intp)
-
-
-def _size(s: Complex) -> Float:
-    """Return the mean distance from the origin, the same for a path that is walked backwards."""
-    return np.asarray(np.exp(np.mean(np.log(np.abs(s) + 1e-300), axis=0)))
-
-
-def _names(system: Motion, places: Sequence[Index], paths: Sequence[_Path], kept: Index) -> tuple[str, ...]:
-    owner = [path.states for path in paths for _ in path.states]
-    start = np.cumsum([0, *(len(states) for states in places)])
-    twin = np.concatenate([path.twin + first for path, first in zip(paths, start, strict=False)])
-    s = np.hstack([path.s for path in paths])
-    oscillates = np.mean(s.imag != 0, axis=0) > 0.5
-    names = name_roots(system, owner, np.hstack([path.share for path in paths]), twin, oscillates)
-    return unique_names([names[k] for k in kept], _size(s[:, kept]))
-
-
-def _meetings(paths: Sequence[_Path], label: Mapping[int, str]) -> tuple[Meeting, ...]:
+def _meetings(paths: Sequence[Path], label: Mapping[int, str]) -> tuple[Meeting, ...]:
     found, first = [], 0
     for path in paths:
         for e in path.encounters:
             names = tuple(sorted({label[first + k] for k in e.roots if first + k in label}))
             found.append(Meeting(min(e.low, e.high), max(e.low, e.high), names, e.kind, e.s, e.distance))
-        first += len(path.states)
+        first += len(path.home)
     return tuple(sorted(found, key=lambda meeting: meeting.low))
 
 
 def _residual(problem: Problem, name: str, values: Float, s: Complex) -> float:
     """Return the largest backward error of the characteristic polynomial at all points."""
-    column = values[:, None]
-    p = {**parameters_at(problem, problem.speeds[0]), name: column}
-    C_s = column if name == "C_s" else given_damping(problem)
+    p, C_s = _numbers(problem, name, values[:, None])
     polynomial = characteristic(p, **problem.model).full(C_s)
     return float(np.nanmax(backward_error(polynomial, s)))

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from yawdesign.response.spectrum import Index, Spectrum
+from yawdesign.response.spectrum import Index, Spectrum, rounding
 from yawdesign.stability.modes import Complex, Float
 
 DOUBT = 0.25  # largest error of a partner's prediction, relative to that of the next best root
@@ -84,10 +84,18 @@ def follow(start: Place, end: Place, at: Callable[[float], Place], share: float 
     if step.sure:
         return [step]
     middle = between(start.value, end.value)
-    if share < FINEST or middle in (start.value, end.value):
+    if share < FINEST or middle in (start.value, end.value) or _are_one(start, end, step):
         return [_accepted(start.spectrum, end.spectrum, step)]
     between_them = at(middle)
     return follow(start, between_them, at, share / 2) + follow(between_them, end, at, share / 2)
+
+
+def _are_one(start: Place, end: Place, step: Link) -> bool:
+    """Return whether the roots in doubt are one within rounding at both ends: no smaller step tells them apart."""
+    p, q = start.spectrum.s, end.spectrum.s
+    roots = [k for k in step.meeting if p[k].imag >= 0 or q[step.partner[k]].imag >= 0]
+    ends = ((start.matrix, p[roots]), (end.matrix, q[step.partner[roots]]))
+    return len(roots) > 1 and all(np.abs(s - s[0]).max() <= rounding(matrix) for matrix, s in ends)
 
 
 def between(low: float, high: float) -> float:
@@ -103,11 +111,13 @@ def link(start: Place, end: Place) -> Link:
     change = end.matrix - start.matrix
     error = np.abs(_distance(p.s, q.s) - (p.velocity(change)[:, None] + q.velocity(change)) / 2)
     partner = _pairs(p, error)
-    certainty = _certainty(error, partner)
+    certainty = _certainty(p, q, error, partner)
     turned = _turned(p, q, partner)
-    doubt = (certainty <= 1 - DOUBT) | turned
-    sure = not np.any(doubt) and bool(np.all(_most_alike(p, q) == partner))
-    return Link(start.value, end.value, partner, certainty, sure, tuple(int(k) for k in np.flatnonzero(doubt)), LOST)
+    alike = _most_alike(p, q)
+    doubt = (certainty <= 1 - DOUBT) | turned | ((alike != partner) & (q.s[alike] != q.s[partner]))
+    return Link(
+        start.value, end.value, partner, certainty, not doubt.any(), tuple(np.flatnonzero(doubt).tolist()), LOST
+    )
 
 
 def _distance(s: Complex, other: Complex) -> Complex:
@@ -121,12 +131,14 @@ def _pairs(p: Spectrum, error: Float) -> Index:
     return np.concatenate([np.arange(p.real), chosen + p.real, chosen + above]).astype(np.intp)
 
 
-def _certainty(error: Float, partner: Index) -> Float:
+def _certainty(p: Spectrum, q: Spectrum, error: Float, partner: Index) -> Float:
     """Return how much better each partner is predicted than any other root, seen from both ends."""
     n = np.arange(len(partner))
     own = error[n, partner]
+    # Roots that are one at both ends (zeros, of bodies that no spring holds) need not be told apart.
+    same = (p.s[:, None] == p.s) & (q.s[partner][:, None] == q.s[partner])
     others = error.copy()
-    others[n, partner] = np.inf
+    others[:, partner] = np.where(same, np.inf, error[:, partner])
     next_best = np.minimum(others.min(axis=1), others.min(axis=0)[partner])
     return np.asarray(1 - np.minimum(1, own / np.maximum(next_best, np.finfo(float).tiny)))
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import chain
 
 import numpy as np
 import scipy.linalg as sl
@@ -12,8 +11,9 @@ from yawdesign.bogie.polynomials import Polynomial
 from yawdesign.bogie.vehicles import Parameters
 from yawdesign.problem import Problem
 from yawdesign.problem.result import Result
-from yawdesign.response.names import assign_groups, group, groups_of, shares, stem, unique_names
-from yawdesign.response.spectrum import Index, Motion, Spectrum, motion, parts, spectrum, unfold, whole_vector
+from yawdesign.response.hunting import hunting_root
+from yawdesign.response.names import NamedRoot, named_roots
+from yawdesign.response.spectrum import Motion, unfold, whole_vector
 from yawdesign.stability.modes import Complex, Float, backward_error
 from yawdesign.stability.verdict import EXACT, Mode, given_damping, stability
 
@@ -34,6 +34,9 @@ class NamedMode(Mode):
     participation : mapping str -> float
         Share of each coordinate (with its velocity) and of each damper's stroke in the mode: left times right
         eigenvector. The shares sum to 1 and do not depend on units.
+    conicity : float
+        How much the root depends on the conicity, |d ln eigenvalue / d ln lambda|: 1/2 for a wheelset that rolls
+        freely, 0 for what knows nothing of the wheels.
     residual : float
         The larger of two backward errors: of the characteristic polynomial at the eigenvalue, and of the eigenvector.
     """
@@ -42,6 +45,7 @@ class NamedMode(Mode):
     eigenvalue: complex
     shape: Mapping[str, complex]
     participation: Mapping[str, float]
+    conicity: float
     residual: float
 
 
@@ -53,6 +57,8 @@ class Modes(Result):
     ----------
     modes : tuple of NamedMode
         The least damped first (by decay rate).
+    hunting : str or None
+        Name of the one that is the hunting of the bogie; None if nothing that oscillates depends on the conicity.
     stable : bool
         Whether all of them decay, as `yawdesign.stability` says it.
     C_s, speed : float
@@ -66,6 +72,7 @@ class Modes(Result):
     """
 
     modes: tuple[NamedMode, ...]
+    hunting: str | None
     stable: bool
     C_s: float
     speed: float
@@ -97,10 +104,12 @@ def modes(problem: Problem) -> Modes:
     verdict = stability(problem)
     p, model = parameters_at(problem, verdict.speed), problem.model
     found = modes_at(p, given_damping(problem), **model)
+    hunting = hunting_mode(found)
     exact = all(mode.residual < EXACT for mode in found)
     bogie = {name: value for name, value in p.items() if name != "v"}
     return Modes(
         modes=found,
+        hunting=None if hunting is None else hunting.name,
         stable=verdict.stable,
         C_s=verdict.C_s,
         speed=verdict.speed,
@@ -127,75 +136,39 @@ def modes_at(p: Parameters, C_s: float, *, kind: str, equations: str) -> tuple[N
     kind, equations : str
         As in `yawdesign.bogie.vehicles.bogie`.
     """
-    system = motion(p, C_s, kind=kind, equations=equations)
-    places = parts(system.matrix != 0)
-    found = [spectrum(system.matrix[np.ix_(states, states)]) for states in places]
-    names = _names(system, places, found)
+    system, roots = named_roots(p, C_s, kind=kind, equations=equations)
     polynomial = characteristic(p, kind=kind, equations=equations).full(C_s)
-    roots = [(states, part, k) for states, part in zip(places, found, strict=True) for k in _upper(part)]
-    made = [_mode(name, system, *root, float(p["a"]), polynomial) for name, root in zip(names, roots, strict=True)]
+    made = [_mode(root, system, float(p["a"]), polynomial) for root in roots]
     return tuple(sorted(made, key=lambda mode: (mode.decay_rate, mode.frequency)))
 
 
-def _upper(part: Spectrum) -> range:
-    """Return the places of the roots on the real axis and above it."""
-    return range(part.real + (len(part.s) - part.real) // 2)
-
-
-def _names(system: Motion, places: Sequence[Index], found: Sequence[Spectrum]) -> tuple[str, ...]:
-    states = [[system.states[i] for i in place] for place in places]
-    share = [shares(part, names, groups_of(system)) for part, names in zip(found, states, strict=True)]
-    owner = list(chain.from_iterable([names] * len(names) for names in states))
-    s = np.concatenate([part.s for part in found])
-    all_names = name_roots(system, owner, np.hstack(share), joined_twins(found), s.imag != 0)
-    upper = s.imag >= 0
-    return unique_names([name for name, up in zip(all_names, upper, strict=True) if up], np.abs(s[upper]))
-
-
-def joined_twins(found: Sequence[Spectrum]) -> Index:
-    """Return for each root of all parts together the place of its conjugate."""
-    start = np.cumsum([0, *(len(part.s) for part in found)])
-    return np.concatenate([part.twin + first for part, first in zip(found, start, strict=False)])
-
-
-def name_roots(
-    system: Motion, owner: Sequence[Sequence[str]], share: Float, twin: Index, oscillates: Sequence[bool] | Index
-) -> list[str]:
-    """Return the name of each root, not yet unique.
+def hunting_mode(modes: Sequence[NamedMode]) -> NamedMode | None:
+    """Return the hunting of a bogie among its modes; None if nothing that oscillates depends on the conicity.
 
     Parameters
     ----------
-    system : Motion
-        What moves.
-    owner : sequence of sequence of str
-        For each root the states of the part of the motion it belongs to.
-    share : ndarray, shape (groups, roots)
-        Participation.
-    twin, oscillates : sequences
-        For each root its conjugate, and whether it is complex.
+    modes : sequence of NamedMode
+        All modes, as `modes_at` returns them.
     """
-    groups = groups_of(system)
-    room = [sum(group(state) == name for state in system.states) for name in groups]
-    chosen = assign_groups(share, room, twin)
-    return [stem(groups[i], states, bool(waves)) for i, states, waves in zip(chosen, owner, oscillates, strict=True)]
+    place = hunting_root(np.array([mode.eigenvalue for mode in modes]), np.array([mode.conicity for mode in modes]))
+    return None if place is None else modes[place]
 
 
-def _mode(
-    name: str, system: Motion, states: Index, part: Spectrum, k: int, arm: float, polynomial: Polynomial
-) -> NamedMode:
-    s = complex(part.s[k])
-    vector = whole_vector(system.matrix, states, s, part.right[:, k])
+def _mode(root: NamedRoot, system: Motion, arm: float, polynomial: Polynomial) -> NamedMode:
+    s = root.s
+    vector = whole_vector(system.matrix, root.states, s, root.part.right[:, root.place])
     left = np.zeros(len(system.matrix), dtype=complex)
-    left[states] = part.left[:, k]
+    left[root.states] = root.part.left[:, root.place]
     return NamedMode(
         frequency=s.imag / (2 * np.pi),
         damping_ratio=-s.real / abs(s) if s else 0.0,
         decay_rate=-s.real,
-        name=name,
+        name=root.name,
         eigenvalue=s,
         shape=_shape(system, vector, arm),
         participation=_participation(system, left, vector),
-        residual=max(float(backward_error(polynomial, part.s[k])), _eigenvector_error(system.matrix, s, vector)),
+        conicity=root.conicity,
+        residual=max(float(backward_error(polynomial, np.array(s))), _eigenvector_error(system.matrix, s, vector)),
     )
 
 
@@ -203,7 +176,7 @@ def _shape(system: Motion, vector: Complex, arm: float) -> dict[str, complex]:
     shape = unfold(system.coordinates, vector[: len(system.coordinates)])
     weight = {x: arm if x.startswith("phi") else 1.0 for x in shape}
     largest = max(shape, key=lambda x: weight[x] * abs(shape[x]))
-    unit = weight[largest] * shape[largest]
+    unit = weight[largest] * shape[largest] or 1.0
     return {x: value / unit for x, value in shape.items()}
 
 

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from yawdesign.bogie.signals import unit_of
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import unknown_key
 from yawdesign.response.frequency import states
 from yawdesign.response.march import clock_of, first_order_hold, forced, forced_by_lines, march, settled, time_step
 from yawdesign.response.measured import MeasuredTrack
-from yawdesign.response.system import Float, System, unit_of
+from yawdesign.response.system import Float, System
 from yawdesign.response.track import Clock, Lines, RandomTrack, synthesise
 from yawdesign.response.tracks import AnyTrack
 
@@ -52,7 +53,7 @@ class History:
         name : str
             One of `values`.
         """
-        return "rad" if name.startswith("cross_level") else unit_of(name)
+        return unit_of(name)
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,20 +2,23 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import log
+from math import log, pi
 
 import numpy as np
 
 from yawdesign.response.decay import fitted_rate
 from yawdesign.response.frequency import states
+from yawdesign.response.hunting import hunting_root
 from yawdesign.response.motion import History, Motion, Plan, move
+from yawdesign.response.names import named_roots
 from yawdesign.response.stationary import stationary_rms
 from yawdesign.response.system import Float, System
 from yawdesign.response.track import Clock, RandomTrack
 from yawdesign.response.tracks import AnyTrack
-from yawdesign.stability.modes import Complex, core_eigenvalues
+from yawdesign.stability.modes import Complex
 
 AGREE = 0.01  # relative difference of two ways to the same number that is still called the same
+ROUNDING = 1e-9  # of the largest displacement: less is none
 NEUTRAL = 1e-2  # [1/s]: growth rates are compared relative to at least this
 FASTEST_DECAY = 50.0  # logarithm by which a motion may change within one window of the fit
 
@@ -39,7 +42,8 @@ class Run:
     fitted_rate : float
         Growth rate fitted on a free motion, computed with the same time steps [1/s]; negative if it dies out.
     frequency, damping_ratio : float or None
-        Of the least damped oscillation of the coupled motion [Hz], [-].
+        Of the hunting [Hz], [-]: the mode that `yawdesign.modes` calls so; None if nothing that oscillates depends on
+        the conicity.
     settles : bool
         Whether amplitudes settle: eigenvalues and fitted rate are both negative.
     verdict : str
@@ -125,23 +129,21 @@ def _as_expected(system: System, track: AnyTrack, clock: Clock, rms: Mapping[str
         return True
     lines = track.lines(system, clock.step * clock.steps)
     x = states(system, lines.omega, lines.amplitudes)
-    squares = np.sum(np.abs(x) ** 2, axis=0) / 2
-    return all(_close(rms[name], np.sqrt(squares[system.coordinates.index(name)])) for name in ("y_b", "phi_b"))
-
-
-def _close(one: float, two: float) -> bool:
-    return abs(one - two) <= AGREE * abs(two)
+    expected = np.sqrt(np.sum(np.abs(x[:, : len(system.coordinates)]) ** 2, axis=0) / 2)
+    still = ROUNDING * float(expected.max())  # a frame that nothing couples to the wheelsets does not move
+    frame = {name: expected[system.coordinates.index(name)] for name in ("y_b", "phi_b")}
+    return all(abs(rms[name] - size) <= AGREE * size + still for name, size in frame.items())
 
 
 def hunting(system: System) -> tuple[float | None, float | None]:
-    """Return frequency [Hz] and damping ratio of the least damped oscillation of the coupled motion."""
-    s = core_eigenvalues(system.p, system.C_s, **system.model)
-    swings = s[s.imag > 0]
-    if not len(swings):
+    """Return frequency [Hz] and damping ratio of the bogie's hunting, the same root as in `yawdesign.modes`."""
+    p = {name: float(value) for name, value in system.p.items()}
+    _, roots = named_roots(p, system.C_s, **system.model)
+    place = hunting_root(np.array([root.s for root in roots]), np.array([root.conicity for root in roots]))
+    if place is None:
         return None, None
-    ratios = -swings.real / np.abs(swings)
-    k = int(np.argmin(ratios))
-    return float(swings[k].imag / (2 * np.pi)), float(ratios[k])
+    s = roots[place].s
+    return s.imag / (2 * pi), -s.real / abs(s)
 
 
 def _verdict(rate: float, settles: bool, stable: bool) -> str:

@@ -30,7 +30,9 @@ class Simulation(Result):
 
     Names of responses: the coordinates ``y_b, phi_b, y_w1, ...``, with ``_velocity`` and ``_acceleration``;
     ``lateral_force_1`` and ``_2``, what the rails do to each wheelset by gravity and creep; ``yaw_damper_force`` and
-    ``yaw_damper_stroke`` of each yaw damper's piston; ``motor_damper_force_1``, ``motor_damper_stroke_1``, ``..._2``.
+    ``yaw_damper_stroke`` of each yaw damper's piston, ``yaw_damper_displacement`` with its joints, and
+    ``yaw_damper_pair_force`` of both together; ``lateral_damper_force_1``, ``lateral_damper_stroke_1``, ``..._2``, and
+    likewise for the motors' dampers. The state space and the FMU use the same names.
 
     Parameters
     ----------

@@ -20,6 +20,7 @@ from yawdesign.bogie.vehicles import Parameters, bogie
 from yawdesign.stability.modes import Complex, Float
 
 Index = NDArray[np.intp]
+ROUNDING = 1e-13  # relative to the size of the matrix
 
 
 @dataclass(frozen=True)
@@ -92,6 +93,7 @@ class Spectrum:
 def spectrum(matrix: Float) -> Spectrum:
     """Return the spectrum of a real matrix."""
     s, w, v = cast(tuple[Complex, Complex, Complex], sl.eig(matrix, left=True, right=True))
+    _set_zeros(matrix, s, w, v)
     real = np.flatnonzero(s.imag == 0)
     real = real[np.argsort(-s[real].real, kind="stable")]
     above = np.flatnonzero(s.imag > 0)
@@ -104,10 +106,33 @@ def spectrum(matrix: Float) -> Spectrum:
     return Spectrum(s, v, np.asarray(w / np.where(scale == 0, 1, scale), dtype=complex), len(real))
 
 
+def rounding(matrix: Float) -> float:
+    """Return the size of the error that an eigenvalue of a matrix must be expected to have [1/s]."""
+    return ROUNDING * float(np.linalg.norm(sl.matrix_balance(matrix, permute=False)[0]))
+
+
+def _set_zeros(matrix: Float, s: Complex, w: Complex, v: Complex) -> None:
+    """Make roots that are zero within rounding zero, with eigenvectors that belong together.
+
+    Bodies that no spring holds have such roots at every value of a parameter, and several of them are one to the last
+    digit: without this it were chance which is which, and whether they are a pair.
+    """
+    zero = np.flatnonzero(np.abs(s) <= rounding(matrix))
+    if not zero.size:
+        return
+    s[zero] = 0
+    balanced, (scale, _) = sl.matrix_balance(matrix, permute=False, separate=True)
+    left, size, right = np.linalg.svd(balanced)
+    if zero.size > 1 and size[-zero.size] <= ROUNDING * size[0]:
+        right, left = right[-zero.size :].T, left[:, -zero.size :]
+        v[:, zero], w[:, zero] = scale[:, None] * right, np.linalg.solve(right.T @ left, (left / scale[:, None]).T).T
+
+
 def whole_vector(matrix: Float, states: Index, s: complex, vector: Complex) -> Complex:
     """Return the eigenvector of the whole matrix, given that of the part it belongs to.
 
-    A part may drive others that do not act back (the motors' yaw in the model as printed).
+    A part may drive others that do not act back (the motors' yaw in the model as printed). Where these have the same
+    root (a body that nothing holds: twice zero), only the driven part moves.
     """
     out = np.zeros(len(matrix), dtype=complex)
     out[states] = vector
@@ -115,7 +140,10 @@ def whole_vector(matrix: Float, states: Index, s: complex, vector: Complex) -> C
     if driven.size:
         force = matrix[np.ix_(driven, states)] @ vector
         free = s * np.eye(driven.size) - matrix[np.ix_(driven, driven)]
-        out[driven] = np.linalg.solve(free, force)
+        try:
+            out[driven] = np.linalg.solve(free, force)
+        except np.linalg.LinAlgError:
+            out[states], out[driven] = 0, np.linalg.svd(free)[2][-1].conj()
     return out
 
 

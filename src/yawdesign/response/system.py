@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.bogie.assembly import StateSpace, physical
-from yawdesign.bogie.elements import Link, Mass, Maxwell, Single, WheelRailContact
-from yawdesign.bogie.vehicles import MOTOR_DAMPER, YAW_DAMPER, bogie
+from yawdesign.bogie.elements import Link, Mass, Single, WheelRailContact
+from yawdesign.bogie.signals import DAMPERS, PAIR_FORCE, YAW_DISPLACEMENT, acceleration, of_damper, velocity
+from yawdesign.bogie.vehicles import YAW_DAMPER, bogie
 from yawdesign.problem import Problem
 from yawdesign.stability.verdict import given_damping
 
@@ -19,10 +20,6 @@ Float = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 INPUTS = ("alignment", "cross_level")
-# How a link that is shown is called, and by how many equal dampers it stands for: the yaw dampers are a pair.
-SHOWN_LINKS = {YAW_DAMPER: ("yaw_damper_{}", 2)} | {
-    f"{MOTOR_DAMPER}{end}": (f"motor_damper_{{}}_{end}", 1) for end in "12"
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,8 +106,8 @@ def _motions(space: StateSpace, A: Float, B: Float) -> Rows:
     named = list(enumerate(space.coordinates))
     return (
         {x: (unit[i], no_input) for i, x in named}
-        | {f"{x}_velocity": (unit[n + i], no_input) for i, x in named}
-        | {f"{x}_acceleration": (A[n + i], B[n + i]) for i, x in named}
+        | {velocity(x): (unit[n + i], no_input) for i, x in named}
+        | {acceleration(x): (A[n + i], B[n + i]) for i, x in named}
     )
 
 
@@ -131,28 +128,21 @@ def _contact_forces(space: StateSpace, elements: Iterable[Single]) -> Rows:
 
 
 def _dampers(space: StateSpace) -> Rows:
+    """Return force and stroke of each damper, and force and displacement of the pair of yaw dampers."""
     rows: Rows = {}
-    first = 2 * len(space.coordinates)
     no_input = np.zeros(len(space.input_names))
-    for state, (link, law) in enumerate(space.strokes, first):
-        if link.name in SHOWN_LINKS:
-            name, dampers = SHOWN_LINKS[link.name]
-            rows[name.format("force")] = _force(space, link, law, state) / dampers, no_input
-            rows[name.format("stroke")] = np.eye(space.size)[state], no_input
+    for state, (link, law) in enumerate(space.strokes, 2 * len(space.coordinates)):
+        displacement, stroke = _displacement(space, link), np.eye(space.size)[state]
+        force = law.K * (displacement - stroke)
+        rows[of_damper(link.name, "force")] = force / DAMPERS.get(link.name, 1), no_input
+        rows[of_damper(link.name, "stroke")] = stroke, no_input
+        if link.name == YAW_DAMPER:
+            rows[PAIR_FORCE], rows[YAW_DISPLACEMENT] = (force, no_input), (displacement, no_input)
     return rows
 
 
-def _force(space: StateSpace, link: Link, law: Maxwell, state: int) -> Float:
+def _displacement(space: StateSpace, link: Link) -> Float:
     c = np.zeros(space.size)
     for x, g in link.displacement.items():
-        c[space.coordinates.index(x)] = law.K * g
-    c[state] = -law.K
+        c[space.coordinates.index(x)] = g
     return c
-
-
-def unit_of(name: str) -> str:
-    """Return the SI unit of an output, such as ``y_b_velocity``."""
-    if "force" in name:
-        return "N"
-    base = "rad" if name.startswith("phi") else "m"
-    return base + ("/s" if name.endswith("_velocity") else "/s^2" if name.endswith("_acceleration") else "")

@@ -92,7 +92,9 @@ def _base(unit: str) -> dict[str, str]:
 def _add_variables(root: ElementTree.Element, table: Sequence[Variable]) -> None:
     parent = ElementTree.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(table):
-        ElementTree.SubElement(parent, "Float64", _attributes(variable, reference))
+        entry = ElementTree.SubElement(parent, "Float64", _attributes(variable, reference))
+        for name in variable.aliases:
+            ElementTree.SubElement(entry, "Alias", name=name, description=f"another name of {variable.name}")
 
 
 def _attributes(variable: Variable, reference: int) -> dict[str, str]:

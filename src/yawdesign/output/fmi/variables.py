@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
+from yawdesign.bogie.signals import OLD_OUTPUTS, PAIR_FORCE, YAW_DISPLACEMENT, YAW_FORCE, velocity
 from yawdesign.design.motion import IN_SERIES, LEAST_DAMPING, EquationsOfMotion
 from yawdesign.problem import PARAMETERS
 from yawdesign.problem.running import SPEED
@@ -12,8 +13,9 @@ _MOTION = {"y": ("m", "mm", "lateral displacement"), "phi": ("rad", "mrad", "yaw
 _BODIES = {"b": "bogie frame", "w": "wheelset", "m": "motor"}
 _ENDS = {"1": "front ", "2": "rear "}
 _OUTPUTS = {
-    "u_s": ("m", "mm", "displacement of the yaw dampers"),
-    "F_s": ("N", "kN", "force of both yaw dampers together"),
+    YAW_DISPLACEMENT: ("m", "mm", "displacement of each yaw damper with its joints"),
+    YAW_FORCE: ("N", "kN", "force of each of the two yaw dampers"),
+    PAIR_FORCE: ("N", "kN", "force of both yaw dampers together"),
 }
 
 
@@ -33,6 +35,8 @@ class Variable:
         In SI; what has no start value is calculated.
     derivative_of : int, optional
         Value reference of the state whose derivative this is.
+    aliases : tuple of str
+        Other names of the same value.
     """
 
     name: str
@@ -45,6 +49,7 @@ class Variable:
     greatest: float | None = None
     nominal: float | None = None
     derivative_of: int | None = None
+    aliases: tuple[str, ...] = ()
 
     @property
     def variability(self) -> str:
@@ -116,10 +121,12 @@ def _input(name: str) -> Variable:
 def _states(motion: EquationsOfMotion) -> Iterator[Variable]:
     moves = len(motion.states) - len(motion.dashpots)
     for name in motion.states[:moves]:
-        yield _velocity(name) if name.startswith("v_") else _coordinate(name)
-    for name, damper in zip(motion.states[moves:], motion.dashpots, strict=True):
+        coordinate = name.removesuffix("_velocity")
+        yield _coordinate(name) if name == coordinate else _velocity(coordinate)
+    for k, (name, damper) in enumerate(zip(motion.states[moves:], motion.dashpots, strict=True), 1):
         text = f"stroke of the dashpot of the {_damper(damper)}, without its joints"
-        yield Variable(name=name, description=text, causality="local", unit="m", shown="mm", start=0.0, nominal=1e-3)
+        known = Variable(name=name, description=text, causality="local", unit="m", shown="mm", start=0.0, nominal=1e-3)
+        yield replace(known, aliases=(f"z_{k}",))
 
 
 def _damper(name: str) -> str:
@@ -127,10 +134,11 @@ def _damper(name: str) -> str:
 
 
 def _velocity(name: str) -> Variable:
-    """Return the variable of a velocity such as v_y_b."""
-    x = _coordinate(name.removeprefix("v_"))
+    """Return the variable of the velocity of a coordinate."""
+    x = _coordinate(name)
     text, unit = f"rate of the {x.description}", f"{x.unit}/s"
-    return replace(x, name=name, description=text, unit=unit, shown="", nominal=1e-2)
+    x = replace(x, name=velocity(name), aliases=(f"v_{name}",))
+    return replace(x, description=text, unit=unit, shown="", nominal=1e-2)
 
 
 def _coordinate(name: str) -> Variable:
@@ -143,17 +151,23 @@ def _coordinate(name: str) -> Variable:
 
 
 def _derivative(state: Variable, reference: int) -> Variable:
-    """Return the derivative of a state; only accelerations are outputs, the other ones stand among the states."""
-    acceleration = state.name.startswith("v_")
+    rate = state.name.endswith("_velocity")
     return Variable(
         name=f"der({state.name})",
         description=f"time derivative of {state.name}",
-        causality="output" if acceleration else "local",
-        unit=state.unit.replace("/s", "/s²") if acceleration else f"{state.unit}/s",
+        causality="local",
+        unit=state.unit.replace("/s", "/s²") if rate else f"{state.unit}/s",
         derivative_of=reference,
+        aliases=tuple(f"der({name})" for name in state.aliases),
     )
 
 
 def _output(name: str) -> Variable:
-    unit, shown, text = _OUTPUTS[name]
-    return Variable(name=name, description=text, causality="output", unit=unit, shown=shown)
+    new = OLD_OUTPUTS.get(name, name)
+    if new in _OUTPUTS:
+        unit, shown, text = _OUTPUTS[new]
+        text = text if new == name else f"old name of {new}"
+        return Variable(name=name, description=text, causality="output", unit=unit, shown=shown)
+    x = _coordinate(name.removesuffix("_acceleration"))
+    text = x.description.replace("displacement", "acceleration").replace("yaw angle", "yaw acceleration")
+    return replace(x, name=name, description=text, unit=f"{x.unit}/s²", shown="", start=None, nominal=None)

@@ -174,13 +174,8 @@ def _halved(state: list[Any]) -> list[Any]:
         first[k], last[-1 - k] = b[0], b[-1]
         b = (b[1:] + b[:-1]) / 2
     whole = np.concatenate([first, last], axis=1)
-    return [
-        *(
-            np.concatenate([x, y])
-            for x, y in ((owner, owner), (cell, cell), (left, middle), (middle, right), (rounding, rounding))
-        ),
-        whole,
-    ]
+    first_half, second_half = (owner, cell, left, middle, rounding), (owner, cell, middle, right, rounding)
+    return [*map(np.concatenate, zip(first_half, second_half, strict=True)), whole]
 
 
 def _sign_changes(coefficients: Float, rounding: Float) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
