@@ -18,8 +18,8 @@ import numpy as np
 import yawdesign as yd
 from yawdesign import cli
 from yawdesign.output import plots, study_files, study_plots, study_tables, targets  # noqa: F401 - before the forks
-from yawdesign.problem import ProblemError
-from yawdesign.study import chunks, keeping, stopping, sweep, writing
+from yawdesign.problem import ProblemError, stopping, writing
+from yawdesign.study import chunks, keeping, sweep
 from yawdesign.study.keeping import KeptFile
 from yawdesign.study.request import request
 from yawdesign.study.store import Store

@@ -1,7 +1,7 @@
 """Modes followed through a sweep of one parameter, each keeping its identity and the name it has in the problem."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import chain
 from typing import Any
