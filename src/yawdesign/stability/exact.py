@@ -13,7 +13,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from yawdesign.bogie.characteristic import Characteristic, characteristic
-from yawdesign.bogie.polynomials import Polynomial, add, derivative, evaluate, even_odd, multiply, scale, trim
+from yawdesign.bogie.polynomials import Polynomial, add, derivative, even_odd, multiply, scale, trim
 from yawdesign.bogie.vehicles import Parameters
 from yawdesign.problem import exact
 from yawdesign.stability.routh import routh_column
@@ -161,12 +161,20 @@ def _unit(p: Sequence[Decimal]) -> Digits:
 def _bound(F: Digits) -> Decimal:
     """Return more than the magnitude of every root (Fujiwara)."""
     n = len(F) - 1
-    sizes = [(abs(a / F[-1]), n - k) for k, a in enumerate(F[:-1]) if a]
-    return 2 * max(((size.ln() / order).exp() for size, order in sizes), default=Decimal(1)) + 1
+    # The power of ten above |a|, and the whole one above its root: ten times too far at most.
+    powers = [-(-((a / F[-1]).adjusted() + 1) // (n - k)) for k, a in enumerate(F[:-1]) if a]
+    return 2 * Decimal(1).scaleb(max(powers, default=0))
+
+
+def _value(p: Digits, x: Decimal) -> Decimal:
+    value = Decimal(0)
+    for a in reversed(p):
+        value = value * x + a
+    return value
 
 
 def _changes(chain: Sequence[Digits], x: Decimal) -> int:
-    values = [evaluate(p, x) for p in chain]
+    values = [_value(p, x) for p in chain]
     if not values[0]:
         raise NotDecidedError("a root lies on the edge of an interval")
     signs = [value > 0 for value in values if value]
@@ -176,10 +184,10 @@ def _changes(chain: Sequence[Digits], x: Decimal) -> int:
 def _refined(F: Digits, low: Decimal, high: Decimal, digits: int) -> Decimal:
     """Return the only root in an interval, by Newton's method kept inside by halving."""
     slope = derivative(F)
-    rising = evaluate(F, low) < 0
+    rising = _value(F, low) < 0
     x, enough = (low * high).sqrt(), Decimal(1).scaleb(-digits // 2)
     for _ in range(20 * digits):
-        value, steep = evaluate(F, x), evaluate(slope, x)
+        value, steep = _value(F, x), _value(slope, x)
         low, high = (x, high) if (value < 0) == rising else (low, x)
         new = x - value / steep if steep else low
         new = new if low < new < high else (low * high).sqrt()
@@ -191,7 +199,7 @@ def _refined(F: Digits, low: Decimal, high: Decimal, digits: int) -> Decimal:
 
 def _damping(A: Digits, B: Digits, x: Decimal, digits: int) -> Decimal:
     """Return C_s of the crossing at w^2 = x."""
-    (ea, oa), (eb, ob) = ([evaluate(part, x) for part in even_odd(p)] for p in (A, B))
+    (ea, oa), (eb, ob) = ([_value(part, x) for part in even_odd(p)] for p in (A, B))
     top, bottom = ea * eb + x * oa * ob, eb * eb + x * ob * ob
     if abs(top) < (abs(ea * eb) + abs(x * oa * ob)).scaleb(-digits // 4):
         raise NotDecidedError("the sign of a critical damping is open")
@@ -223,8 +231,8 @@ def _direction(A: Digits, B: Digits, C_s: Decimal, omega: Decimal) -> int:
     x = omega * omega
     even, odd = even_odd(add(A, scale(B, C_s)))
     # p(j w) = E(x) + j w O(x); its derivative with respect to w is slope = 2 w E' + j (O + 2 x O').
-    real, imaginary = 2 * omega * evaluate(derivative(even), x), evaluate(odd, x) + 2 * x * evaluate(derivative(odd), x)
-    even_b, odd_b = (evaluate(part, x) for part in even_odd(B))
+    real, imaginary = 2 * omega * _value(derivative(even), x), _value(odd, x) + 2 * x * _value(derivative(odd), x)
+    even_b, odd_b = (_value(part, x) for part in even_odd(B))
     # ds/dC_s = j dw/dC_s = -j B / slope; its real part has the sign of Im(B conj(slope)).
     turn = omega * odd_b * real - even_b * imaginary
     return 1 if turn > 0 else -1

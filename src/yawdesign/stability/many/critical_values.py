@@ -24,6 +24,7 @@ from yawdesign.stability.routh import TIME_UNIT
 
 Float = NDArray[np.float64]
 Bools = NDArray[np.bool_]
+Ints = NDArray[np.intp]
 
 ACCURATE = 5e-9  # largest relative error of a critical value that rounding may cause
 ROUNDING = 2e-15  # of the coefficients
@@ -124,7 +125,7 @@ class _Parts(NamedTuple):
     even_b: Float
     odd_b: Float
 
-    def of(self, owner: NDArray[np.intp]) -> "_Parts":
+    def of(self, owner: Ints) -> "_Parts":
         return _Parts(*(np.take(part, owner, axis=1) for part in self))
 
 
@@ -134,9 +135,9 @@ class _Sizes:
     def __init__(self, A: Float, B: Float) -> None:
         self._parts = [np.abs(half) for p in (A, B) for half in (p[::2], p[1::2])]
 
-    def at(self, owner: NDArray[np.intp], x: Float) -> Float:
+    def at(self, owner: Ints, x: Float) -> Float:
         """Return the size of some polynomials, each at a place of its own."""
-        return self._product([_horner(part[:, owner], x)[0] for part in self._parts])
+        return self._product([_value(part[:, owner], x) for part in self._parts])
 
     def table(self, some: slice, x: Float) -> Float:
         """Return the sizes of some polynomials at all places, shape (places, polynomials)."""
@@ -151,7 +152,7 @@ class _Sizes:
 class _Crossings(NamedTuple):
     """Roots on the imaginary axis: whose they are, where, which way they go, and their largest relative errors."""
 
-    owner: NDArray[np.intp]
+    owner: Ints
     C_s: Float
     omega: Float
     direction: Float
@@ -174,7 +175,8 @@ def in_double_precision(block: Block, *, kind: str, equations: str) -> tuple[Cri
     n = results.shape[1]
     with np.errstate(all="ignore"):  # what overflows has no certain sign or no small error, and fails
         isolated = isolate(F, _Sizes(A, B))
-        found = _crossings(A, B, isolated.owner, isolated.low, isolated.high)
+        x = _refined(np.take(F, isolated.owner, axis=1), isolated.low, isolated.high)
+        found = _crossings(A, B, isolated.owner, x)
     rows = Rows(found.owner, found.C_s, n)
     critical, omega, direction, error = map(rows.spread, found[1:])
     unstable, doubtful = _counted(A, B, critical, block.values["K_ds"])
@@ -186,13 +188,19 @@ def in_double_precision(block: Block, *, kind: str, equations: str) -> tuple[Cri
     return CriticalField(critical, omega, unstable, none, none), right & ~doubtful & ~isolated.undecided
 
 
-def _crossings(A: Float, B: Float, owner: NDArray[np.intp], low: Float, high: Float) -> _Crossings:
-    parts = _Parts(*(np.array(half) for p in (A, B) for half in even_odd(tuple(p))))
-    mine = parts.of(owner)
-    x = _refined(mine, low, high)
-    (ea, oa, eb, ob), (dea, doa, deb, dob) = _values(mine, x)
+def _crossings(A: Float, B: Float, owner: Ints, x: Float) -> _Crossings:
+    """Return what belongs to the roots x = w^2 whose damping is positive."""
+    parts = _Parts(*(np.array(half) for p in (A, B) for half in even_odd(tuple(p)))).of(owner)
+    ea, oa, eb, ob = (_value(part, x) for part in parts)
     C_s = -(ea * eb + x * oa * ob) / (eb * eb + x * ob * ob)
-    keep = (C_s > 0) & np.isfinite(C_s)
+    keep = np.flatnonzero((C_s > 0) & np.isfinite(C_s))
+    parts = parts.of(keep)
+    owner, x = owner[keep], x[keep]
+    (ea, oa, eb, ob), (dea, doa, deb, dob) = zip(*(_value_and_slope(part, x) for part in parts), strict=True)
+    # One step on A and B themselves: the product of both has lost digits that they have.
+    x = x - (eb * oa - ea * ob) / (deb * oa + eb * doa - dea * ob - ea * dob)
+    ea, oa, eb, ob = (_value(part, x) for part in parts)
+    C_s = -(ea * eb + x * oa * ob) / (eb * eb + x * ob * ob)
     omega = np.sqrt(x)
     # P = A + C_s B on the axis, its derivative with respect to omega, and the velocity of its root.
     even, odd = dea + C_s * deb, doa + C_s * dob
@@ -200,20 +208,20 @@ def _crossings(A: Float, B: Float, owner: NDArray[np.intp], low: Float, high: Fl
     pull = eb + 1j * omega * ob
     velocity = -1j * pull / slope
     # What is off by r on the axis is made up for by a C_s that is off by dC_s: pull dC_s + slope dw = -r.
-    size = _size(A, B, owner, C_s, omega)
+    largest_ea, largest_oa, largest_eb, largest_ob = (_value(np.abs(part), x) for part in parts)
+    size = largest_ea + omega * largest_oa + C_s * (largest_eb + omega * largest_ob)
     residual = np.hypot(ea + C_s * eb, omega * (oa + C_s * ob))
     error = (residual + ROUNDING * size) * np.abs(slope) / (C_s * np.abs((pull * np.conj(slope)).imag))
-    columns = (x[keep] for x in (C_s, omega * TIME_UNIT, np.sign(velocity.real), error))
-    return _Crossings(owner[keep], *columns)
+    return _Crossings(owner, C_s, omega * TIME_UNIT, np.sign(velocity.real), error)
 
 
-def _refined(parts: _Parts, low: Float, high: Float) -> Float:
-    """Return the root of E_B O_A - E_A O_B in every interval by Newton's method, kept inside by halving."""
-    rising = _function(parts, low)[0] < 0
+def _refined(F: Float, low: Float, high: Float) -> Float:
+    """Return the root of each polynomial in its interval by Newton's method, kept inside by halving."""
+    rising = _value(F, low) < 0
     root = _middle(low, high)
     active, x = np.arange(len(root)), root
     for _ in range(ITERATIONS):
-        value, slope = _function(parts, x)
+        value, slope = _value_and_slope(F, x)
         below = (value < 0) == rising
         low, high = np.where(below, x, low), np.where(below, high, x)
         new = x - value / slope
@@ -221,7 +229,7 @@ def _refined(parts: _Parts, low: Float, high: Float) -> Float:
         moving = np.abs(new - x) > CONVERGED * new
         root[active] = x = new
         if 2 * np.count_nonzero(moving) < len(active):  # to carry the finished along costs less than to part them
-            active, parts = active[moving], parts.of(np.flatnonzero(moving))
+            active, F = active[moving], F[:, moving]
             x, low, high, rising = x[moving], low[moving], high[moving], rising[moving]
         if not len(active):
             break
@@ -233,18 +241,15 @@ def _middle(low: Float, high: Float) -> Float:
     return np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 2)
 
 
-def _function(parts: _Parts, x: Float) -> tuple[Float, Float]:
-    (ea, oa, eb, ob), (dea, doa, deb, dob) = _values(parts, x)
-    return eb * oa - ea * ob, deb * oa + eb * doa - dea * ob - ea * dob
+def _value(p: Float, x: Float) -> Float:
+    value: Float = p[-1].copy()
+    for a in p[-2::-1]:
+        value *= x
+        value += a
+    return value
 
 
-def _values(parts: _Parts, x: Float) -> tuple[list[Float], list[Float]]:
-    """Return the values of all parts, and their derivatives with respect to x."""
-    values, slopes = zip(*(_horner(part, x) for part in parts), strict=True)
-    return list(values), list(slopes)
-
-
-def _horner(p: Float, x: Float) -> tuple[Float, Float]:
+def _value_and_slope(p: Float, x: Float) -> tuple[Float, Float]:
     value, slope = p[-1].copy(), np.zeros_like(x)
     for a in p[-2::-1]:
         slope *= x
@@ -252,13 +257,6 @@ def _horner(p: Float, x: Float) -> tuple[Float, Float]:
         value *= x
         value += a
     return value, slope
-
-
-def _size(A: Float, B: Float, owner: NDArray[np.intp], C_s: Float, omega: Float) -> Float:
-    """Return the sum of the magnitudes of what A + C_s B is made of on the axis."""
-    a, _ = _horner(np.abs(np.take(A, owner, axis=1)), omega)
-    b, _ = _horner(np.abs(np.take(B, owner, axis=1)), omega)
-    return np.asarray(a + np.abs(C_s) * b)
 
 
 class Rows:
@@ -274,7 +272,7 @@ class Rows:
         Number of points.
     """
 
-    def __init__(self, owner: NDArray[np.intp], key: Float, n: int) -> None:
+    def __init__(self, owner: Ints, key: Float, n: int) -> None:
         self._order = np.lexsort((key, owner))
         self._owner = owner[self._order]
         self.count = np.bincount(owner, minlength=n)

@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 
 Float = NDArray[np.float64]
 
-CELLS = 40
+CELLS = 28
 RANGE = (1e-4, 1e4)  # of the variable, in cells spaced geometrically; two more cells reach from zero and to infinity
 HALVINGS = 30
 MOST = 32  # open intervals of a polynomial: where more are open it is lost in rounding, and given up
-BLOCK = 1024  # polynomials, whose Bernstein coefficients stay in a cache
+BLOCK = 1024  # polynomials
 ROUNDING = 3e-13  # of a value of the polynomial, relative to the size of what it is the sum of
 
 
