@@ -62,9 +62,9 @@ def test_units_of_entries(documented):
     A = documented["state_matrix"].outputs[0]
     n = len(A.rows)
     by_place = {(A.rows[k % n], A.columns[k // n]): unit for k, unit in enumerate(A.units)}
-    assert by_place["v_y_b", "v_phi_b"] == "m/s²/(rad/s)"
-    assert by_place["y_b", "v_y_b"] == "-"
-    assert by_place["v_phi_b", "y_b"] == "rad/s²/m"
+    assert by_place["y_b_velocity", "phi_b_velocity"] == "m/s²/(rad/s)"
+    assert by_place["y_b", "y_b_velocity"] == "-"
+    assert by_place["phi_b_velocity", "y_b"] == "rad/s²/m"
     gradient = documented["critical_damping"].outputs[3]
     assert dict(zip(gradient.rows, gradient.units, strict=True))["M_b"] == "N·s/m/kg"
     assert dict(zip(gradient.rows, gradient.units, strict=True))["lambda"] == "N·s/m"

@@ -38,7 +38,7 @@ def test_a_range_has_its_ends_and_its_number(low, ratio, n, log):
 
 
 @pytest.mark.parametrize(
-    "values", [80.0, 80, "288 km/h", [80.0], ["288 km/h"], "80:80:1", np.float64(80), np.array(80)]
+    "values", [80.0, 80, "288 km/h", [80.0], ["288 km/h"], "80 m/s:80 m/s:1", np.float64(80), np.array(80)]
 )
 def test_one_value(values):
     assert read_axis("v", values).values.tolist() == [80.0]
