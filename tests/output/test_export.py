@@ -103,6 +103,7 @@ def test_c_code_equals_casadi_to_the_last_digits(exported, library):
             assert np.abs(got.full() - expected.full()).max(initial=0) <= 1e-12 * size + 1e-15, name
 
 
+@pytest.mark.slow
 def test_work_vectors_of_the_header_are_long_enough(exported, library):
     to, task = exported
     functions = ctypes.CDLL(str(library))

@@ -220,7 +220,10 @@ def assert_same_names(paths, k, named):
 PATHS = ["v", *parameter_keys("power")]
 
 
-@pytest.mark.parametrize("name", PATHS)
+QUICK_PATHS = ("v", "K_m", "C_s", "lambda", "b_0")
+
+
+@pytest.mark.parametrize("name", [pytest.param(x, marks=() if x in QUICK_PATHS else pytest.mark.slow) for x in PATHS])
 def test_a_root_has_one_name_however_it_is_followed(random_bogies, name):
     for p, model in random_bogies(8, seed=PATHS.index(name)):
         if name not in ("v", *parameter_keys(model["kind"])):

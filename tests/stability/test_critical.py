@@ -67,6 +67,7 @@ def exactly(p):
     return {name: Fraction(value) for name, value in p.items()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("n", "spread", "seed"), [(200, 3, 21), (60, 10, 22)])
 def test_random_bogies_against_certificates(random_bogies, n, spread, seed):
     values = 0

@@ -192,15 +192,17 @@ def _crossings(A: Float, B: Float, owner: Ints, x: Float) -> _Crossings:
     """Return what belongs to the roots x = w^2 whose damping is positive."""
     parts = _Parts(*(np.array(half) for p in (A, B) for half in even_odd(tuple(p)))).of(owner)
     ea, oa, eb, ob = (_value(part, x) for part in parts)
-    C_s = -(ea * eb + x * oa * ob) / (eb * eb + x * ob * ob)
+    C_s = _damping(ea, oa, eb, ob, x)
     keep = np.flatnonzero((C_s > 0) & np.isfinite(C_s))
     parts = parts.of(keep)
-    owner, x = owner[keep], x[keep]
+    owner, x, before = owner[keep], x[keep], C_s[keep]
     (ea, oa, eb, ob), (dea, doa, deb, dob) = zip(*(_value_and_slope(part, x) for part in parts), strict=True)
     # One step on A and B themselves: the product of both has lost digits that they have.
     x = x - (eb * oa - ea * ob) / (deb * oa + eb * doa - dea * ob - ea * dob)
     ea, oa, eb, ob = (_value(part, x) for part in parts)
-    C_s = -(ea * eb + x * oa * ob) / (eb * eb + x * ob * ob)
+    C_s = _damping(ea, oa, eb, ob, x)
+    lost = ~((C_s > 0) & np.isfinite(C_s))
+    C_s = np.where(lost, before, C_s)
     omega = np.sqrt(x)
     # P = A + C_s B on the axis, its derivative with respect to omega, and the velocity of its root.
     even, odd = dea + C_s * deb, doa + C_s * dob
@@ -212,7 +214,12 @@ def _crossings(A: Float, B: Float, owner: Ints, x: Float) -> _Crossings:
     size = largest_ea + omega * largest_oa + C_s * (largest_eb + omega * largest_ob)
     residual = np.hypot(ea + C_s * eb, omega * (oa + C_s * ob))
     error = (residual + ROUNDING * size) * np.abs(slope) / (C_s * np.abs((pull * np.conj(slope)).imag))
-    return _Crossings(owner, C_s, omega * TIME_UNIT, np.sign(velocity.real), error)
+    return _Crossings(owner, C_s, omega * TIME_UNIT, np.sign(velocity.real), np.where(lost, np.inf, error))
+
+
+def _damping(ea: Float, oa: Float, eb: Float, ob: Float, x: Float) -> Float:
+    """Return the C_s at which A + C_s B is smallest on the axis: zero at a crossing."""
+    return -(ea * eb + x * oa * ob) / (eb * eb + x * ob * ob)
 
 
 def _refined(F: Float, low: Float, high: Float) -> Float:
