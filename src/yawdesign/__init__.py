@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from yawdesign.study.result import Sweep
     from yawdesign.study.sweep import IncompleteSweepError, sweep
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 _HOMES = {
     "yawdesign.problem": (
