@@ -28,7 +28,7 @@ WITHIN = 12  # the same inside each interval with a change
 SECTIONS = 28  # of the search for a least magnitude: down to a millionth of the interval
 TOUCHING = 1e-3  # of the magnitude beside it: a least one below this is looked at by eigenvalues
 TOGETHER = 8192  # points that are counted at once
-HALVINGS = 34
+HALVINGS = 30
 ON_AXIS = 1e-6  # largest |Re| of the root at a critical speed, relative to max(1, |s|)
 
 
@@ -131,22 +131,29 @@ def _least(
 
     Also the count there, and the nearness relative to the first one looked at.
     """
-    shape = len(owner)
-    place, inside, least = (low + high) / 2, count.copy(), np.full(shape, np.inf)
-    if not shape:
+    place, inside, least = (low + high) / 2, count.copy(), np.full(len(owner), np.inf)
+    if not len(owner):
         return place, inside, least
     golden = (np.sqrt(5) - 1) / 2
-    first = None
+
+    def looked_at(v: Float) -> Float:
+        nonlocal place, inside, least
+        here, _, near = _count(question, block.part(owner).with_values(v=v))
+        size = np.abs(near)
+        better = (inside == count) & ((here != count) | (size < least))
+        place, inside, least = (np.where(better, *pair) for pair in ((v, place), (here, inside), (size, least)))
+        return size
+
+    left, right = high - golden * (high - low), low + golden * (high - low)
+    at_left, at_right = looked_at(left), looked_at(right)
+    first = np.maximum(at_left, at_right)
     for _ in range(SECTIONS):
-        ends = high - golden * (high - low), low + golden * (high - low)
-        looked = [_count(question, block.part(owner).with_values(v=v)) for v in ends]
-        near = [np.abs(x[2]) for x in looked]
-        first = np.maximum(*near) if first is None else first
-        for v, (here, _, _), size in zip(ends, looked, near, strict=True):
-            better = (inside == count) & ((here != count) | (size < least))
-            place, inside, least = (np.where(better, *pair) for pair in ((v, place), (here, inside), (size, least)))
-        to_left = near[0] < near[1]
-        low, high = np.where(to_left, low, ends[0]), np.where(to_left, ends[1], high)
+        to_left = at_left < at_right
+        low, high = np.where(to_left, low, left), np.where(to_left, right, high)
+        new = np.where(to_left, high - golden * (high - low), low + golden * (high - low))
+        size = looked_at(new)
+        left, right = np.where(to_left, new, right), np.where(to_left, left, new)
+        at_left, at_right = np.where(to_left, size, at_right), np.where(to_left, at_left, size)
     with np.errstate(all="ignore"):
         return place, inside, least / first
 
