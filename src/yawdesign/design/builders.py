@@ -90,7 +90,7 @@ def routh_column(draft: Draft) -> None:
 
 
 def hurwitz_minors(draft: Draft) -> None:
-    """Hurwitz minors of eq. (10): stable exactly if all signs are +1. Their values would overflow."""
+    """Hurwitz minors of eq. (10): stable if all signs are +1, but for roots on the axis, which rounding hides."""
     p, C_s = _all(draft)
     chi = paper_coefficients(p, C_s, **draft.setting.model, unit=TIME_UNIT)
     signs, logarithms = generic_minors(tuple(reversed(_trimmed(tuple(reversed(chi))))), functions=ca)
