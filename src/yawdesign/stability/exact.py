@@ -116,7 +116,8 @@ def _isolated(F: Digits, digits: int) -> Iterator[tuple[list[Digits], Decimal, D
     if len(F) < 2:
         return
     chain = _sturm_chain(F, digits)
-    low, high = 1 / _bound(F[::-1]), _bound(F)
+    # The odd factor keeps the middles off round numbers, where exact roots may lie.
+    low, high = 1 / _bound(F[::-1]), Decimal("1.137") * _bound(F)
     open_ = [(low, high, _changes(chain, low), _changes(chain, high))]
     while open_:
         low, high, left, right = open_.pop()
