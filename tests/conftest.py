@@ -1,6 +1,7 @@
 """Reference bogies, random bogies and exact arithmetic for the tests."""
 
 import json
+import signal
 from fractions import Fraction
 from pathlib import Path
 
@@ -11,6 +12,14 @@ import pytest
 CASES = json.loads((Path(__file__).parent / "data" / "cases.json").read_text(encoding="utf-8"))["cases"]
 TABLE_1 = CASES[0]["bogie"]
 MODELS = [("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal")]
+
+
+def pytest_configure():
+    """Take requests to stop as a terminal gives them: what starts tests in the background may have them ignored."""
+    for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT"):
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) is signal.SIG_IGN:
+            signal.signal(number, signal.default_int_handler if name == "SIGINT" else signal.SIG_DFL)
 
 
 def pytest_generate_tests(metafunc):
