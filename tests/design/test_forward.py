@@ -157,3 +157,15 @@ def test_sensitivities_against_differences():
 def test_intersect():
     assert intersect([(0, 2), (3, 9)], [(1, 4), (5, 6)]) == ((1, 2), (3, 4), (5, 6))
     assert intersect([(0, 1)], [(1, 2)]) == ()
+
+
+@pytest.mark.parametrize("C_m", [1e-6, 1e-4, 1e-3, 2e-3, 1e-2])
+def test_a_damper_with_hardly_any_damping_is_no_obstacle(C_m):
+    # Its root is a million times faster than all others, and rounds the eigenvalues of the matrix.
+    problem = yd.table1(equations="as-printed").replace(C_m=C_m)
+    result = yd.design(problem)
+    assert (result.status, result.checked) == ("ok", True)
+    assert result.C_s == pytest.approx(1689833.0, rel=1e-6)
+    verdict = yd.stability(problem.replace(C_s=result.C_s))
+    assert verdict.checked
+    assert verdict.stable

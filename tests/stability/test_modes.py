@@ -7,13 +7,17 @@ import pytest
 from yawdesign.bogie.characteristic import characteristic
 from yawdesign.stability.modes import (
     backward_error,
+    core_eigenvalues,
     core_matrix,
     damping_ratio,
     decay_rate,
     eigenvalues,
+    polished,
     roots,
     state_matrix,
 )
+
+PRINTED = {"kind": "power", "equations": "as-printed"}
 
 
 def test_spectral_abscissa_of_the_reference_bogies(case, of_case):
@@ -86,3 +90,20 @@ def test_roots_of_a_polynomial():
 def test_backward_error_is_zero_at_a_root_only():
     assert backward_error((-6.0, 1.0), np.array(6.0)) == 0
     assert backward_error((-6.0, 1.0), np.array(6.06)) == pytest.approx(0.06 / 12.06)
+
+
+def test_polished_eigenvalues_are_roots_and_none_is_lost(table1):
+    p = {**table1, "C_m": 1e-3}
+    polynomial = characteristic(p, **PRINTED).core(1e6)
+    rough = core_eigenvalues(p, 1e6, **PRINTED)
+    fine = polished(polynomial, rough)
+    assert backward_error(polynomial, rough).max() > 1e-9
+    assert backward_error(polynomial, fine).max() < 1e-14
+    assert len(np.unique(fine)) == len(fine)
+    scale = np.abs(rough).max()
+    assert np.abs(fine - rough).max() < 1e-9 * scale
+
+
+def test_eigenvalues_that_are_roots_already_stay(table1):
+    polynomial, s = characteristic(table1, **PRINTED).core(1e6), core_eigenvalues(table1, 1e6, **PRINTED)
+    assert polished(polynomial, s) == pytest.approx(s, rel=1e-9)

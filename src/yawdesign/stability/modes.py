@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from yawdesign.bogie.assembly import StateSpace, folded, physical
 from yawdesign.bogie.elements import Link, Mass, Single, WheelRailContact
-from yawdesign.bogie.polynomials import Number, Polynomial, evaluate, scale_variable
+from yawdesign.bogie.polynomials import Number, Polynomial, derivative, evaluate, scale_variable
 from yawdesign.bogie.vehicles import Parameters, bogie
 from yawdesign.stability.routh import TIME_UNIT
 
@@ -62,8 +62,12 @@ def _dense(elements: Sequence[Single]) -> Float:
 
 def eigenvalues(matrix: Float) -> Complex:
     """Return the eigenvalues of one matrix [1/s], the least damped first, conjugates together."""
-    values = np.linalg.eigvals(matrix)
-    return np.asarray(sorted(values, key=lambda s: (-s.real, abs(s.imag), -s.imag)), dtype=complex)
+    return in_order(np.asarray(np.linalg.eigvals(matrix), dtype=complex))
+
+
+def in_order(s: Complex) -> Complex:
+    """Return roots, the least damped first, conjugates together."""
+    return np.asarray(sorted(s, key=lambda s: (-s.real, abs(s.imag), -s.imag)), dtype=complex)
 
 
 def core_eigenvalues(p: Parameters, C_s: Number, *, kind: str = "power", equations: str = "reciprocal") -> Complex:
@@ -90,6 +94,33 @@ def damping_ratio(s: Complex) -> Float:
 
 
 MARGINS = {"decay_rate": decay_rate, "damping_ratio": damping_ratio}
+
+
+def polished(p: Polynomial, s: Complex) -> Complex:
+    """Return eigenvalues after steps of Newton's method on their polynomial.
+
+    A matrix with a root that is very fast, such as that of a damper with hardly any damping, gives the slow ones with
+    the rounding of the fast one. No eigenvalue moves more than a quarter of the way to another one: none is lost.
+
+    Parameters
+    ----------
+    p : tuple
+        Real coefficients, lowest power first.
+    s : array
+        Eigenvalues [1/s], in any order.
+    """
+    scaled = scale_variable(p, TIME_UNIT)
+    gap = np.abs(s[:, None] - s[None, :]) / TIME_UNIT
+    np.fill_diagonal(gap, np.inf)
+    start = w = s / TIME_UNIT
+    with np.errstate(all="ignore"):
+        for _ in range(3):
+            outside = np.abs(w) > 1
+            z = np.where(outside, 1 / w, w)
+            near, far = (z - evaluate(q, z) / evaluate(derivative(q), z) for q in (scaled, scaled[::-1]))
+            new = np.where(outside, 1 / far, near)
+            w = np.where(np.isfinite(new) & (np.abs(new - start) < gap.min(axis=1) / 4), new, w)
+    return np.asarray(w * TIME_UNIT)
 
 
 def backward_error(p: Polynomial, s: Complex) -> Float:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from yawdesign.bogie.characteristic import DAMPER_FACTOR, Characteristic, characteristic
-from yawdesign.bogie.polynomials import product
+from yawdesign.bogie.polynomials import Polynomial, product
 from yawdesign.bogie.vehicles import Parameters
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.result import Result
@@ -18,6 +18,8 @@ from yawdesign.stability.modes import (
     damping_ratio,
     decay_rate,
     eigenvalues,
+    in_order,
+    polished,
     roots,
     state_matrix,
 )
@@ -131,16 +133,16 @@ def stability_at(p: Parameters, C_s: float, variables: Collection[str] = (), *, 
         As in `yawdesign.bogie.vehicles.bogie`.
     """
     c = characteristic(p, kind=kind, equations=equations)
-    s = eigenvalues(state_matrix(p, C_s, kind=kind, equations=equations))
+    whole = c.full(C_s)
+    s = _roots(whole, eigenvalues(state_matrix(p, C_s, kind=kind, equations=equations)))
     fixed = fixed_factors(p, variables, kind=kind, equations=equations)
     moved = np.concatenate(
         [
-            core_eigenvalues(p, C_s, kind=kind, equations=equations),
+            _roots(c.core(C_s), core_eigenvalues(p, C_s, kind=kind, equations=equations)),
             *(roots(c.factors[n]) for n in c.factors if n not in fixed),
         ]
     )
     unstable = int(count_undamped(s))
-    whole = c.full(C_s)
     counted = _count(c, C_s)
     agree = counted == unstable and bool(np.all(backward_error(whole, s) < EXACT))
     return Stability(
@@ -156,6 +158,13 @@ def stability_at(p: Parameters, C_s: float, variables: Collection[str] = (), *, 
         unstable_roots=unstable,
         checked=agree,
     )
+
+
+def _roots(p: Polynomial, s: Complex) -> Complex:
+    """Return eigenvalues, polished where they are no roots of their polynomial, the least damped first."""
+    if np.all(backward_error(p, s) < EXACT):
+        return s
+    return in_order(polished(p, s))
 
 
 def modes(s: Complex) -> tuple[Mode, ...]:

@@ -174,7 +174,7 @@ def _numbers(values: object, row: Parameter) -> Float:
     if found.ndim > 1:
         raise ProblemError(f"is an array of {found.ndim} dimensions, expected a list of values or a text LOW:HIGH:N")
     if found.ndim == 0:
-        return np.array([row.check(found.item())], dtype=float)
+        return np.array([row.accept(found.item())], dtype=float)
     if found.dtype.kind in "iuf":
         return found.astype(float)
     return np.array([row.accept(x) for x in cast(Iterable[Any], values)], dtype=float)

@@ -4,6 +4,7 @@ import os
 import stat
 import time
 import warnings
+from hashlib import sha256
 from pathlib import Path
 
 import casadi as ca
@@ -11,7 +12,7 @@ import numpy as np
 import pytest
 
 from yawdesign import __version__
-from yawdesign.stability.many import compiled, tape
+from yawdesign.stability.many import compiled, library_cache, tape
 from yawdesign.stability.many.tape import Tape
 
 VALUES = {"x": np.arange(1.0, 5.0), "y": 2.0}
@@ -179,9 +180,9 @@ FAILING = {
     "that writes nothing": ("exit 0", "without a library"),
     "whose library has nothing in it": (
         'while [ "$1" != -o ]; do shift; done; echo "int x;" | cc -shared -o "$2" -xc -',
-        "run",
+        "a library that does not load",
     ),
-    "whose library is none": ('while [ "$1" != -o ]; do shift; done; echo x > "$2"', "-[0-9a-f]{64}.so"),
+    "whose library is none": ('while [ "$1" != -o ]; do shift; done; echo x > "$2"', "a library that does not load"),
 }
 
 
@@ -239,3 +240,36 @@ def has_ended(number):
             return True
         time.sleep(0.01)
     return False
+
+
+@pytest.mark.parametrize("ending", [': > "$o"', 'gcc "$@" && truncate -s 5000 "$o"'], ids=["empty", "cut off"])
+def test_a_library_that_does_not_load_is_not_kept(ending, monkeypatch, tmp_path, folder):
+    fake = tmp_path / "fake-cc"
+    fake.write_text(
+        '#!/bin/sh\ncase "$1" in --version) exec gcc --version;; esac\n'
+        'for x in "$@"; do [ "$before" = -o ] && o=$x; before=$x; done\n' + ending + "\n"
+    )
+    fake.chmod(0o700)
+    monkeypatch.setenv("YAWDESIGN_CC", str(fake))
+    with pytest.warns(RuntimeWarning, match="a library that does not load"):
+        assert not is_compiled()
+    assert not folder.exists() or not list(folder.iterdir())
+
+
+def test_a_library_with_the_right_digest_that_does_not_load_is_removed(library, folder, monkeypatch):
+    empty = folder / f"{library.name.split('-')[0]}-{sha256(b'').hexdigest()}{library.suffix}"
+    library.unlink()
+    empty.write_bytes(b"")
+    empty.chmod(0o600)
+    calls = compiles(monkeypatch)
+    assert is_compiled()
+    assert len(calls) == 1
+    assert [path.name for path in folder.iterdir()] == [library.name]
+
+
+def test_what_another_process_has_kept_meanwhile_is_used(library, monkeypatch):
+    monkeypatch.setattr(library_cache, "find", lambda key: None)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert is_compiled()
+    assert library.exists()

@@ -6,6 +6,7 @@ import hashlib
 import os
 import platform
 import shutil
+import sys
 import tempfile
 import warnings
 from collections.abc import Callable, Sequence
@@ -57,6 +58,8 @@ void run(const double *const *in, const long long *stride, double *out, long lon
   }
 }
 """
+
+TRIAL = "import ctypes, sys; ctypes.CDLL(sys.argv[1]).run"
 
 
 def load(body: str) -> Run | None:
@@ -121,14 +124,33 @@ def _library(source: str, compiler: tuple[str, str]) -> ctypes.CDLL:
     key = hashlib.sha256("\n".join([source, *FLAGS, *compiler, _processor()]).encode()).hexdigest()[:20]
     with contextlib.suppress(OSError):
         if kept := library_cache.find(key):
-            return ctypes.CDLL(str(kept))
+            return _loaded(kept)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         library = _compile(source, compiler[0], Path(folder))
+        _try(library)
         try:
             library = library_cache.keep(key, library.read_bytes())
         except OSError as error:
             _not_kept(_told(error))
         return ctypes.CDLL(str(library))  # what is loaded stays so without its file
+
+
+def _loaded(kept: Path) -> ctypes.CDLL:
+    """Return a library that was kept; one that does not load is removed."""
+    try:
+        return ctypes.CDLL(str(kept))
+    except OSError:
+        kept.unlink(missing_ok=True)
+        raise
+
+
+def _try(library: Path) -> None:
+    """Load a library in a process of its own: one that a compiler has cut off would end this one."""
+    done = run(
+        [sys.executable, "-I", "-c", "import ctypes, sys; ctypes.CDLL(sys.argv[1]).run", str(library)], TIME_LIMIT
+    )
+    if done.returncode:
+        raise RuntimeError("it made a library that does not load")
 
 
 def _compile(source: str, compiler: str, folder: Path) -> Path:

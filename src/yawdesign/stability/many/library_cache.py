@@ -67,7 +67,11 @@ def keep(key: str, content: bytes) -> Path:
         If it cannot be kept.
     """
     path = _own_folder() / f"{key}-{sha256(content).hexdigest()}{SUFFIX}"
-    write_whole(path, content)
+    if path.exists() and _fits(path):  # another process has compiled the same
+        return path
+    if path.is_dir():
+        raise OSError(f"{path} is a folder")
+    write_whole(path, content, replace=True)
     path.chmod(0o600)
     return path
 
