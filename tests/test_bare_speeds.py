@@ -115,3 +115,9 @@ def test_on_the_command_line(command, keys):
     lines = [line for line in result.stderr.splitlines() if "is read as" in line]
     assert [line.partition("is read as")[0] for line in lines] == [f"warning: {key}" for key in keys]
     assert "is read as" not in result.stdout
+
+
+@pytest.mark.parametrize("value", ["300", "90"])
+def test_an_axis_of_one_bare_speed_says_what_it_was_read_as(value):
+    with pytest.warns(UnitWarning, match=rf"{value} is read as {value} m/s"):
+        yd.sweep(yd.table1(), of="C_sl", v=value)

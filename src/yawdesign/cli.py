@@ -209,8 +209,12 @@ def _show_sweep(result: Any, as_json: bool) -> None:
 
 
 def _unwritten(error: Exception) -> str:
+    from yawdesign.problem import ProblemError
+
     if isinstance(error, OSError):
         return f"{error.filename or ANSWER} could not be written: {error.strerror}"
+    if isinstance(error, ProblemError):
+        return f"the results could not be written: {str(error).removeprefix('error: ')}"
     return f"the results could not be shown: {type(error).__name__}: {error}"
 
 
@@ -313,12 +317,14 @@ def modes(
     over: Annotated[
         str, typer.Option(metavar="NAME=LOW:HIGH:N[:log]", help="Follow the modes, such as 'v=50 km/h:450 km/h:80'.")
     ] = "",
-    plot: Annotated[str, typer.Option(metavar="FILE", help="Draw the mode, or with --over the paths.")] = "",
+    plot: Annotated[str | None, typer.Option(metavar="FILE", help="Draw the mode, or with --over the paths.")] = None,
     of: Annotated[
         str, typer.Option(help="What --plot draws with --over: root_locus (default), damping_ratio or frequency.")
     ] = "",
     animate: Annotated[str, typer.Option(metavar="MODE", help="Which mode is drawn; the slowest if not given.")] = "",
-    to: Annotated[str, typer.Option(metavar="FILE", help="Show the mode in motion: a .gif or .svg file.")] = "",
+    to: Annotated[
+        str | None, typer.Option(metavar="FILE", help="Show the mode in motion: a .gif or .svg file.")
+    ] = None,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
@@ -346,7 +352,7 @@ def modes(
     raise typer.Exit(_code(result.checked, bool(over) or result.stable))
 
 
-def _check_modes(*, over: str, plot: str, of: str, animate: str, to: str) -> None:
+def _check_modes(*, over: str, plot: str | None, of: str, animate: str, to: str | None) -> None:
     """Check that every option has something to act on."""
     from yawdesign.output.mode_plots import QUANTITIES
     from yawdesign.problem import ProblemError

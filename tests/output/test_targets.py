@@ -91,7 +91,7 @@ def test_all_mistakes_at_once():
 
 
 def test_devices_are_there_and_can_be_given_twice():
-    null = Target("--csv", os.devnull), Target("--npz", os.devnull), Target("--plot", "")
+    null = Target("--csv", os.devnull), Target("--npz", os.devnull), Target("--plot", None)
     assert checked_targets(null, []) == [Path(os.devnull), Path(os.devnull), None]
 
 
@@ -107,3 +107,17 @@ def test_in_python_too(tmp_path):
     Path("p.svg").write_text("mine")
     with pytest.raises(yd.ProblemError, match=r"p\.svg exists"):
         yd.animate(yd.modes(yd.table1()), "p.svg")
+
+
+@pytest.mark.parametrize("option", ["--csv", "--npz", "--plot", "--resume"])
+def test_an_empty_name_is_no_name(option):
+    refused = run("sweep", "p.yaml", "--of", "stable", "--over", "v=252 km/h:288 km/h:3", option, "", code=2)
+    assert f"{option}: is empty: give the name of a file" in refused.stderr
+    assert refused.stdout == ""
+
+
+@pytest.mark.parametrize(
+    "arguments", [("simulate", "p.yaml", "--plot", ""), ("modes", "p.yaml", "--to", ""), ("new", "")]
+)
+def test_an_empty_name_is_no_name_of_other_outputs(arguments):
+    assert "is empty: give the name of a file" in run(*arguments, code=2).stderr

@@ -14,6 +14,7 @@ from yawdesign.design.nlp import improve
 from yawdesign.design.search import Progress, refine, search
 from yawdesign.design.space import Float, Space, fraction, scale
 from yawdesign.problem import Curve, Problem, ProblemError
+from yawdesign.problem.table import as_seed
 from yawdesign.stability.hurwitz import hurwitz_minors
 from yawdesign.stability.routh import TIME_UNIT
 from yawdesign.stability.verdict import Mode, Stability, stability_at
@@ -134,6 +135,7 @@ def optimise(
     ProblemError
         If C_s is neither given nor a design variable.
     """
+    seed = as_seed(seed) or 0
     space = Space(problem)
     if "C_s" not in space.names and problem.bogie.C_s is None:
         raise ProblemError("bogie.C_s is missing: give its value, or make it a design variable")

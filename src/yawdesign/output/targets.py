@@ -54,6 +54,8 @@ def checked_targets(targets: Iterable[Target], inputs: Iterable[str]) -> list[Pa
         path = Path(target.name) if target.name else None
         paths.append(path)
         with mistakes.under(target.option):
+            if target.name == "":
+                raise ProblemError("is empty: give the name of a file")
             if path is not None:
                 others = tuple(taken)
                 taken.append((path, f"is also the file of {target.option}"))

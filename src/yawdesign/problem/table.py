@@ -205,6 +205,14 @@ def as_count(value: object, low: int, high: int) -> int:
     return int(number)
 
 
+def as_seed(value: object) -> int | None:
+    """Return the seed of random numbers: a whole number that is not negative, or nothing if there is none."""
+    try:
+        return None if value is None else as_count(value, 0, 2**63 - 1)
+    except ProblemError as error:
+        raise error.under("seed") from None
+
+
 def as_text(value: object) -> str:
     """Return a text of one line, without control characters."""
     if not isinstance(value, str):

@@ -55,7 +55,7 @@ def whole_file(path: Path, *, replace: bool = False) -> Iterator[BinaryIO]:
 def refuse_existing(path: Path, replace: bool) -> None:
     """Raise a ProblemError if there is a file that may not be replaced."""
     if not replace and os.path.lexists(path) and not is_stream(path):
-        raise ProblemError(f"{path} exists: choose another name, or ask for it to be replaced")
+        raise ProblemError(f"{path} exists: choose another name, or give --force (replace=True in Python)")
 
 
 def is_stream(path: Path) -> bool:

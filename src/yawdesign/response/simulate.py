@@ -9,7 +9,7 @@ from yawdesign.problem.arguments import checked
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
-from yawdesign.problem.table import as_choice, as_count, as_quantity, as_several
+from yawdesign.problem.table import as_choice, as_quantity, as_seed, as_several
 from yawdesign.response.component import DamperComponent, component
 from yawdesign.response.motion import TRACK_INPUTS, History, Plan, planned_clock
 from yawdesign.response.runs import Run, run
@@ -155,7 +155,7 @@ def simulate(
     found: dict[str, Any] = {}
     mistakes = Mistakes()
     for name, read in (
-        ("track", lambda: as_track(track, band=_band(band), seed=_seed(seed))),
+        ("track", lambda: as_track(track, band=_band(band), seed=as_seed(seed))),
         ("speed", lambda: _speeds(problem, speed)),
         ("duration", lambda: _positive(duration, "s")),
         ("length", lambda: _positive(length, "m", alone=duration is None)),
@@ -252,13 +252,6 @@ def _band(band: Any) -> Band | None:
     if isinstance(band, str) or len(as_several(band)) != 2:
         raise ProblemError(f"band: {band!r} is not a pair, such as ('0.3 Hz', '40 Hz')")
     return Band(*band)
-
-
-def _seed(seed: Any) -> int | None:
-    try:
-        return None if seed is None else as_count(seed, 0, 2**63 - 1)
-    except ProblemError as error:
-        raise error.under("seed") from None
 
 
 def _speeds(problem: Problem, speed: Any) -> tuple[float, ...]:

@@ -9,7 +9,7 @@ from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
-from yawdesign.problem.table import as_choice, as_quantity
+from yawdesign.problem.table import as_choice, as_quantity, as_seed
 from yawdesign.response.march import MOST_STEPS
 from yawdesign.response.system import INPUTS, Float
 from yawdesign.response.track import Clock, RandomTrack, synthesise
@@ -87,7 +87,7 @@ def spectrum_check(
         if not way > 0:
             raise ProblemError(f"{length} must be more than 0")
     mistakes.report()
-    road = as_track(track, seed=seed)
+    road = as_track(track, seed=as_seed(seed))
     if not isinstance(road, RandomTrack) or input not in road.spectrum.densities:
         raise ProblemError(f"track: {road.name} has no spectrum of {input}")
     low, high = road.band.hertz(v)

@@ -140,7 +140,7 @@ def read_range(text: str, row: Parameter) -> Float:
     """
     parts = [part.strip() for part in text.split(":")]
     if len(parts) == 1 and text:
-        return np.array([float(row.check(text))])
+        return np.array([float(row.accept(text))])
     if len(parts) not in (3, 4) or (len(parts) == 4 and parts[3] != "log"):
         raise ProblemError(f"{text!r} is no range: write LOW:HIGH:N or LOW:HIGH:N:log, such as 150 km/h:450 km/h:60")
     mistakes, ends, count = Mistakes(), (1.0, 2.0), 2
