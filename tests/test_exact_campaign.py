@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import yawdesign as yd
+
 ROOT = Path(__file__).parents[1]
 SHARE = float(os.environ.get("YAWDESIGN_CAMPAIGN", "0.1"))
 SIZES = {"wide": 3000, "nearly undamped": 1000, "at a fold": 500}
@@ -33,6 +35,21 @@ def test_what_says_it_is_checked_is_right(exact, kind):
         assert not counts["wrong"] + counts["missed"] + counts["invented"]
         assert counts["unverified"] <= max(UNVERIFIED[kind] * n, 1)
         assert counts["right"] + counts["unverified"] == n
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::yawdesign.problem.diagnostics.UnitWarning")
+@pytest.mark.parametrize("kind", ["wide", "nearly undamped"])
+def test_designs_are_verified(exact, kind):
+    """The verdict at the chosen damping too: eigenvalues must not fail where the critical values are known."""
+    source, n = exact.KINDS[kind](np.random.default_rng(8)), max(1, int(SHARE * SIZES[kind] / 2))
+    unverified = 0
+    for p, model in (next(source) for _ in range(n)):
+        base = yd.table1(**({"kind": "trailer"} if model["kind"] == "trailer" else {"equations": model["equations"]}))
+        p = dict(p)
+        design = yd.design(base.replace(speed=p.pop("v"), **p))
+        unverified += design.status == "unverified"
+    assert unverified <= max(UNVERIFIED[kind] * n, 1)
 
 
 @pytest.mark.parametrize("kind", SIZES)

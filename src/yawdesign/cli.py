@@ -451,20 +451,22 @@ def new(
             raise ProblemError(f"{file}: the schema is written under this name beside the problem: choose another name")
         checked_targets([Target("", file, replaced=force)], [])
         write_whole(path, starter(kind).encode(), replace=force)
-        if path.is_file():
-            _write_schema(path.with_name(SCHEMA_FILE), force)
-        write_answer(f"wrote {file}; next: yawdesign optimise {file}\n")
+        schema = path.with_name(SCHEMA_FILE)
+        beside = f" and {schema}" if path.is_file() and _write_schema(schema, force) else ""
+        write_answer(f"wrote {file}{beside}; next: yawdesign optimise {file}\n")
 
 
-def _write_schema(path: Path, force: bool) -> None:
-    """Write the schema; another file of that name stays, with a note, unless `force` is given."""
+def _write_schema(path: Path, force: bool) -> bool:
+    """Return whether the schema was written; another file of that name stays, with a note, unless `force` is given."""
     from yawdesign.problem.writing import write_whole
 
     content = _schema_text().encode()
     if not path.exists() or force:
         write_whole(path, content, replace=force)
-    elif path.read_bytes() != content:
+        return True
+    if path.read_bytes() != content:
         tell(f"note: {path} was there and is kept; it is not the schema of this version, which --force puts there")
+    return False
 
 
 @app.command()
