@@ -54,8 +54,10 @@ def test_bounds_of_a_damper_below_one_newton_second_per_metre(objective, quick):
     result = yd.optimise(problem)
     assert result.status == "optimal"
     assert_within(problem, result)
-    # A motor damper helps: the best that is allowed of it is the most.
-    assert result.optimum["C_m"] == pytest.approx(0.5, rel=1e-2)
+    # A motor damper helps: the most that is allowed of it is the best, by so little that a part of it is as good;
+    # the shortened search of this test comes as near as this.
+    best = yd.optimise(problem_of({"C_s": (1e4, 1e7)}, C_m=0.5, objective=objective))
+    assert result.margin == pytest.approx(best.margin, rel=1e-3)
 
 
 @pytest.mark.parametrize("name", ["C_t", "C_m", "C_s"])
