@@ -343,6 +343,7 @@ def test_a_run_that_fails_leaves_nothing(tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_the_manifest_tells_how_each_function_is_called(exported, library):
     """With the manifest alone: vectors of the lengths that it gives, and the inputs in its order."""
     to, _ = exported

@@ -309,6 +309,7 @@ def test_export_on_the_command_line(tmp_path, compiler):
         ("stability_margin", ["fmu"], {"bogie.fmu"}),
     ],
 )
+@pytest.mark.slow
 def test_a_kind_of_file_among_the_functions(tmp_path, only, formats, files):
     export = yd.export(TABLE_1, tmp_path / "out", only=only, formats=formats)
     assert set(export.files) == {*files, "manifest.json"}

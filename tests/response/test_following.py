@@ -238,6 +238,7 @@ def test_a_root_has_one_name_however_it_is_followed(random_bogies, name):
 
 @given(seed=st.integers(0, 2**32 - 1), name=st.sampled_from(PATHS))
 @settings(max_examples=25, deadline=None)
+@pytest.mark.slow
 def test_the_part_of_an_axis_that_is_looked_at_changes_no_name(random_bogies, seed, name):
     p, model = next(iter(random_bogies(1, seed=seed)))
     name = "C_s" if name not in ("v", *parameter_keys(model["kind"])) else name

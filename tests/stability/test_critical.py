@@ -151,6 +151,7 @@ def test_both_sides_of_a_fold(table1, apart):
     ("name", "which", "end"),
     [("a", 18, 0), ("K_m", 44, 0), ("lambda", 37, 0), ("a", 19, -1), ("lambda", 7, -1), ("lambda", 21, -1)],
 )
+@pytest.mark.slow
 def test_values_far_outside_what_is_allowed(random_bogies, name, which, end):
     # Where the count towards 0 or infinity changes over a parameter, a critical value runs off to there.
     p, model = list(random_bogies(which + 1, seed=90))[which]

@@ -82,6 +82,7 @@ def expects_boundary(of, names):
 
 
 @pytest.mark.parametrize(("kind", "of"), EACH)
+@pytest.mark.slow
 def test_one_axis(kind, of):
     assert check_to_the_end(kind, of, 1) >= (31 if kind == "power" else 22)
 

@@ -58,6 +58,7 @@ def test_verdicts_and_margins(random_bogies, model, of):
 
 
 @pytest.mark.parametrize("speed", [None, SPEEDS], ids=["one speed", "three speeds"])
+@pytest.mark.slow
 def test_designs(random_bogies, model, speed):
     p = drawn(random_bogies, model, 25, seed=3)
     p.pop("C_s")

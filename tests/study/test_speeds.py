@@ -88,6 +88,7 @@ def test_two_changes_that_undo_each_other():
 
 
 @pytest.mark.parametrize("more", [0.0, 10.0, 20.0, 24.0, 30.0, 100.0])
+@pytest.mark.slow
 def test_ever_narrower_intervals(more):
     # With more damping the unstable interval shrinks; the largest real part between its ends tells whether it is there.
     C_s = 117280.942 + more
@@ -121,6 +122,7 @@ def test_no_change_is_missed_between_the_speeds(random_bogies):
     assert several > 40
 
 
+@pytest.mark.slow
 def test_several_changes_in_one_cell(random_bogies, monkeypatch):
     model, found_two = {"kind": "power", "equations": "as-printed"}, 0
     for p, _ in random_bogies(25, seed=5, spread=2.0):
