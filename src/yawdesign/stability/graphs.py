@@ -19,7 +19,7 @@ from yawdesign.stability.routh import routh_column as generic_column
 
 Names = tuple[str, ...]
 
-NEAR = 1e-8  # how far the rootfinder may move a guess that is known to nine digits; farther lies another root
+NEAR = 1e-8  # how far the rootfinder may move a guess that is known to eight digits; farther lies another root
 
 
 def _symbols(names: Names) -> tuple[ca.SX, dict[str, ca.SX]]:

@@ -4,7 +4,7 @@ On the stability boundary A(j w) + C_s B(j w) = 0 with real w and C_s: the compl
 With x = w^2 and the polynomials split into even and odd parts, that happens at the positive roots of
 ``E_B O_A - E_A O_B`` where -E_A/E_B > 0. These roots are isolated, refined on A and B themselves, and the unstable
 roots of the bogie are counted in every interval of C_s, in the first one towards 0 and in the last one towards
-infinity. A point passes if no root may be missed, every value is known to nine digits, no count is doubtful, and every
+infinity. A point passes if no root may be missed, every value is known to eight digits, no count is doubtful, and every
 count differs from the one before by what the crossing root's velocity says. What fails is computed with many digits.
 """
 
