@@ -299,10 +299,14 @@ def test_a_request_to_stop_loses_no_finished_sweep(monkeypatch, where, name, res
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_request_to_a_group_of_processes(number, tmp_path):
     """As from a terminal or a batch system; the command ends, though work waits for the other processes."""
-    grid = ("--of", "critical", "--over", "f_m=0.5:8:1500", "--over", "v=150 km/h:450 km/h:400")
-    command = [sys.executable, "-m", "yawdesign.cli", "sweep", str(PROBLEM), *grid, "--jobs", "2", "--resume", "k.npz"]
+    grid = ("--of", "critical", "--over", "f_m=0.5:8:1500", "--over", "v=150 km/h:450 km/h:4000")
+    at_once = "from yawdesign.study import sweep; sweep.SAVE_EVERY = 0; from yawdesign.cli import main; main()"
+    asked = ("sweep", str(PROBLEM), *grid, "--jobs", "2", "--resume", "k.npz")
+    command = [sys.executable, "-c", at_once, *asked]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
-    time.sleep(10)
+    latest = time.monotonic() + 120
+    while not Path("k.npz").exists() and process.poll() is None and time.monotonic() < latest:
+        time.sleep(0.05)  # until both processes are at work and points are finished
     os.killpg(process.pid, number)
     told = process.communicate(timeout=60)[1]
     assert process.returncode == 128 + number
