@@ -307,6 +307,7 @@ def test_a_request_to_a_group_of_processes(number, tmp_path):
     latest = time.monotonic() + 120
     while not Path("k.npz").exists() and process.poll() is None and time.monotonic() < latest:
         time.sleep(0.05)  # until both processes are at work and points are finished
+    assert Path("k.npz").exists()
     os.killpg(process.pid, number)
     told = process.communicate(timeout=60)[1]
     assert process.returncode == 128 + number

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from .arguments import named
-from .diagnostics import Diagnostic, Mistakes, ProblemError
+from .diagnostics import Diagnostic, Mistakes
 from .table import as_choice, check_fields, documented, field_name, parameter, table
 
 Kind = Literal["power", "trailer"]
@@ -252,11 +252,3 @@ MOTOR_KEYS: tuple[str, ...] = tuple(key for key, row in PARAMETERS.items() if ro
 def parameter_keys(kind: str) -> tuple[str, ...]:
     """Return the keys that a bogie of this kind has, in the order of Table I."""
     return tuple(key for key in PARAMETERS if kind != "trailer" or key not in MOTOR_KEYS)
-
-
-def find_parameter(key: str) -> str:
-    """Return the file key of a parameter, given by its file key or its Python name."""
-    key = "lambda" if key == "lambda_" else key
-    if key not in PARAMETERS:
-        raise ProblemError(f"{key} is not a parameter")
-    return key
