@@ -20,9 +20,9 @@ from typing import Any
 import numpy as np
 
 import yawdesign as yd
-from yawdesign.stability.certificate import Certificate, certify
-from yawdesign.stability.critical import critical_damping
-from yawdesign.study.points import evaluate
+from yawdesign.hunting.certificate import Certificate, certify
+from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.study.answers import evaluate
 from yawdesign.study.question import Question
 
 MODELS = (("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal"))

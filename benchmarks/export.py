@@ -18,8 +18,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 import yawdesign as yd
-from yawdesign.stability.critical import critical_damping
-from yawdesign.stability.modes import core_matrix
+from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.hunting.eigenvalues import core_matrix
 
 DRIVER = r"""
 #include <stdio.h>

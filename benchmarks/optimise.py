@@ -13,8 +13,8 @@ import numpy as np
 from scipy.optimize import differential_evolution
 
 import yawdesign as yd
-from yawdesign.design.curving import curving_limit
-from yawdesign.stability.modes import core_matrix
+from yawdesign.damper.curving import curving_limit
+from yawdesign.hunting.eigenvalues import core_matrix
 
 
 def problem(objective: str, equations: str, seed: int | None = None) -> yd.Problem:

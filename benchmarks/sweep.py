@@ -17,16 +17,17 @@ import numpy as np
 from scipy.optimize import brentq
 
 import yawdesign as yd
-from yawdesign.bogie.characteristic import characteristic
-from yawdesign.bogie.polynomials import add, even_odd, multiply, scale, scale_variable
-from yawdesign.stability.certificate import certify
-from yawdesign.stability.critical import critical_damping
-from yawdesign.stability.graphs import critical_damping as critical_function
-from yawdesign.stability.graphs import parameter_names
-from yawdesign.stability.many import compiled, kernels
-from yawdesign.stability.modes import core_matrix, state_matrix
-from yawdesign.study.points import evaluate
+from yawdesign.hunting.boundary import critical_damping as critical_function
+from yawdesign.hunting.boundary import parameter_names
+from yawdesign.hunting.certificate import certify
+from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.hunting.eigenvalues import core_matrix, state_matrix
+from yawdesign.hunting.many import compiled
+from yawdesign.hunting.many import counts as kernels
+from yawdesign.study.answers import evaluate
 from yawdesign.study.question import Question
+from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.polynomials import add, even_odd, multiply, scale, scale_variable
 
 MODEL = {"kind": "power", "equations": "as-printed"}
 SPEED = 300 / 3.6

@@ -19,8 +19,10 @@ import yawdesign as yd
 from yawdesign import cli
 from yawdesign.output import plots, study_files, study_plots, study_tables, targets  # noqa: F401 - before the forks
 from yawdesign.problem import ProblemError, stopping, writing
-from yawdesign.study import chunks, keeping, sweep
-from yawdesign.study.keeping import KeptFile
+from yawdesign.study import executors as chunks
+from yawdesign.study import kept_file as keeping
+from yawdesign.study import sweep
+from yawdesign.study.kept_file import KeptFile
 from yawdesign.study.request import request
 from yawdesign.study.store import Store
 

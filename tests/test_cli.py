@@ -223,7 +223,7 @@ def test_a_request_to_stop_ends_any_command_tidily(number, tmp_path, monkeypatch
         assert len(list((tmp_path / "out").iterdir())) == 1
         signal.raise_signal(number)
 
-    monkeypatch.setattr("yawdesign.output.export.write.write_text", asked)
+    monkeypatch.setattr("yawdesign.exports.write.write_text", asked)
     folder = ("--to", str(tmp_path / "out"), "--only", "dynamic_stiffness", "--formats", "c")
     monkeypatch.setattr(sys, "argv", ["yawdesign", "export", str(PROBLEMS / "table1.yaml"), *folder])
     before = [signal.getsignal(x) for x in signal.valid_signals()]

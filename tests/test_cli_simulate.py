@@ -87,7 +87,7 @@ def test_measured_and_own_tracks(tmp_path):
 )
 def test_bad_input(options, message, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("yawdesign.response.simulate.run", None)  # no work begins
+    monkeypatch.setattr("yawdesign.response.run.simulate.run", None)  # no work begins
     result = run(TABLE_1, *options)
     assert result.exit_code == 2, result.output
     assert message in result.stderr

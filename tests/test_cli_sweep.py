@@ -18,7 +18,7 @@ from typer.testing import CliRunner
 import yawdesign as yd
 from yawdesign.cli import app
 from yawdesign.problem.stopping import Stopped
-from yawdesign.study import chunks
+from yawdesign.study import executors as chunks
 
 PROBLEM = Path(__file__).parents[1] / "problems" / "table1.yaml"
 RUN = CliRunner()
@@ -247,12 +247,12 @@ def whole_sweep(name):
 @pytest.mark.parametrize(
     ("where", "name"),
     [
-        ("yawdesign.study.files", "_rows"),
+        ("yawdesign.study.labelled_data", "_rows"),
         ("yawdesign.study.store", "write_arrays"),
-        ("yawdesign.study.keeping", "_write"),
+        ("yawdesign.study.kept_file", "_write"),
         ("yawdesign.study.sweep", "gathered"),
         ("yawdesign.study.sweep", "_boundary"),
-        ("yawdesign.output.study_files", "draw"),
+        ("yawdesign.output.sweep_files", "draw"),
         ("yawdesign.output.plots", "write_whole"),
         ("yawdesign.cli", "_show_sweep"),
         ("numpy", "savez_compressed"),
@@ -276,7 +276,7 @@ def test_a_request_to_stop_loses_no_finished_sweep(monkeypatch, where, name, res
 
     monkeypatch.setattr(home, last, asked)
     if name == "write_arrays":
-        monkeypatch.setattr("yawdesign.study.files.write_arrays", asked)
+        monkeypatch.setattr("yawdesign.study.labelled_data.write_arrays", asked)
     picture = ("--plot", "x.svg") if where.startswith("yawdesign.output") else ()
     result = run(*CURVE, "--csv", "x.csv", "--npz", "x.npz", *picture, *resume, code=None)
     monkeypatch.undo()
@@ -338,7 +338,7 @@ def test_an_error_of_any_kind_while_a_file_is_written_keeps_the_sweep(monkeypatc
     def fails(result):
         raise RuntimeError("no such font")
 
-    monkeypatch.setattr("yawdesign.output.study_files.draw", fails)
+    monkeypatch.setattr("yawdesign.output.sweep_files.draw", fails)
     done = RUN.invoke(app, ["sweep", str(PROBLEM), *CURVE, "--plot", "x.png", "--csv", "x.csv"])
     assert done.exit_code == 3
     assert "the results could not be shown: RuntimeError: no such font" in done.stderr

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.stability.critical import critical_damping
-from yawdesign.stability.modes import eigenvalues, state_matrix
+from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.hunting.eigenvalues import eigenvalues, state_matrix
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"

@@ -17,7 +17,7 @@ import yawdesign as yd
 
 
 def test_functions_keep_their_names_after_their_rooms_are_imported():
-    for room in ("yawdesign.design.optimise", "yawdesign.stability.critical"):
+    for room in ("yawdesign.damper.optimise", "yawdesign.hunting.critical_damping"):
         importlib.import_module(room)
     assert callable(yd.design)
     assert callable(yd.stability)

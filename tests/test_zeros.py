@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.design.functions import self_test
+from yawdesign.exports.functions import self_test
 from yawdesign.output.mode_tables import followed_tables, modes_tables
 from yawdesign.output.response_tables import simulation_tables
 from yawdesign.output.tables import design_tables, stability_tables

@@ -102,13 +102,13 @@ def _answer(file: str, as_json: bool, home: str, function: str) -> None:
 @app.command()
 def stability(file: ProblemFile, as_json: AsJson = False) -> None:
     """Tell whether the bogie is stable with its C_s, with all modes and margins."""
-    _answer(file, as_json, "yawdesign.stability.verdict", "stability")
+    _answer(file, as_json, "yawdesign.hunting.verdict", "stability")
 
 
 @app.command()
 def design(file: ProblemFile, as_json: AsJson = False) -> None:
     """Find the stable yaw damping, the curve's limit and the golden section between them."""
-    _answer(file, as_json, "yawdesign.design.forward", "design")
+    _answer(file, as_json, "yawdesign.damper.forward", "design")
 
 
 @app.command()
@@ -123,7 +123,7 @@ def optimise(
     with _mistakes_shown():
         problem = _read(file)
         with _progress() as progress:
-            from yawdesign.design.optimise import optimise as best
+            from yawdesign.damper.optimise import optimise as best
 
             result = best(problem, seed=seed, progress=progress)
         _show(result, as_json, "optimum_tables")
@@ -156,9 +156,9 @@ def sweep(
     """Answer one question at every point of a grid of parameters: curves, maps, stability charts."""
     with _mistakes_shown():
         problem = _read(file)
-        from yawdesign.output.study_files import Outputs
+        from yawdesign.output.sweep_files import Outputs
         from yawdesign.problem.stopping import held
-        from yawdesign.study.chunks import workers
+        from yawdesign.study.executors import workers
         from yawdesign.study.request import request
 
         asked = request(problem, of, [(name, values) for name, _, values in (x.partition("=") for x in over)], hold)
@@ -200,7 +200,8 @@ def _write_sweep(result: Any, outputs: Any, as_json: bool) -> None:
 
 
 def _show_sweep(result: Any, as_json: bool) -> None:
-    from yawdesign.output import study_tables, tables
+    from yawdesign.output import sweep_tables as study_tables
+    from yawdesign.output import tables
 
     if as_json:
         write_answer(json.dumps(result.to_dict(), allow_nan=False) + "\n")
@@ -270,8 +271,8 @@ def simulate(
         problem = _read(file)
         _check_response(problem, response, plot)
         with _progress() as progress:
-            from yawdesign.response.simulate import simulate as run
-            from yawdesign.response.tracks import shaped
+            from yawdesign.response.run.simulate import simulate as run
+            from yawdesign.response.track.named_tracks import shaped
 
             result = run(
                 problem,
@@ -299,7 +300,7 @@ def simulate(
 def _check_response(problem: "Problem", response: str | None, plot: str | None) -> None:
     from yawdesign.problem import ProblemError
     from yawdesign.problem.table import as_choice
-    from yawdesign.response.simulate import response_names
+    from yawdesign.response.run.simulate import response_names
 
     if response is None:
         return
@@ -339,9 +340,9 @@ def modes(
         _check_modes(over=over, plot=plot, of=of, animate=animate, to=to)
         problem = _read(file)
         if over:
-            result: Any = import_module("yawdesign.response.following").follow_modes(problem, **_axis(over))
+            result: Any = import_module("yawdesign.response.modes.followed_modes").follow_modes(problem, **_axis(over))
         else:
-            result = import_module("yawdesign.response.modes").modes(problem)
+            result = import_module("yawdesign.response.modes.named_modes").modes(problem)
         if to_plot:
             options: dict[str, Any] = {"of": of or "root_locus"} if over else {"mode": animate or None}
             plots.write_picture(plots.plot(result, **options), to_plot, replace=force)
@@ -424,7 +425,7 @@ def export(
     """Write the model as functions for C, MATLAB and CasADi, with a manifest of their inputs and outputs."""
     with _mistakes_shown():
         problem = _read(file)
-        from yawdesign.output.export.write import export as write
+        from yawdesign.exports.write import export as write
 
         result = write(problem, to, inputs=inputs, only=only, formats=formats, prefix=prefix, force=force)
         for note in result.notes:
@@ -441,7 +442,7 @@ def new(
     """Write a commented problem file to start from, and beside it the schema that editors use."""
     from yawdesign.output.targets import Target, checked_targets
     from yawdesign.problem import SCHEMA_FILE, ProblemError, starter
-    from yawdesign.problem.writing import write_whole
+    from yawdesign.problem.whole_files import write_whole
 
     with _mistakes_shown():
         if kind not in ("power", "trailer"):
@@ -458,7 +459,7 @@ def new(
 
 def _write_schema(path: Path, force: bool) -> bool:
     """Return whether the schema was written; another file of that name stays, with a note, unless `force` is given."""
-    from yawdesign.problem.writing import write_whole
+    from yawdesign.problem.whole_files import write_whole
 
     content = _schema_text().encode()
     if not path.exists() or force:

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from yawdesign.bogie.assembly import StateSpace, folded, physical, polynomial_matrix
-from yawdesign.bogie.elements import Dashpot, Link, Mass, Pair, Spring, WheelRailContact
-from yawdesign.bogie.polynomials import Determinant
-from yawdesign.stability.routh import decays_faster
+from yawdesign.hunting.routh import decays_faster
+from yawdesign.vehicle.assembly import StateSpace, folded, physical, polynomial_matrix
+from yawdesign.vehicle.elements import Dashpot, Link, Mass, Pair, Spring, WheelRailContact
+from yawdesign.vehicle.polynomials import Determinant
 
 M_W, M_F, I_W, I_FY, I_FR = 1022.0, 2918.0, 678.0, 6780.0, 6780.0
 K1, K2, K3, K4, K5, K6 = 1.823e6, 3.646e6, 3.646e6, 182.3e3, 333.3e3, 2.710e6

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.bogie.assembly import polynomial_matrix
-from yawdesign.bogie.polynomials import evaluate
-from yawdesign.response.system import system_at
+from yawdesign.response.run.system import system_at
+from yawdesign.vehicle.assembly import polynomial_matrix
+from yawdesign.vehicle.polynomials import evaluate
 
 DESIGN = yd.table1(equations="as-printed").replace(C_s="1 046 770 N s/m")
 OMEGA = 6.0  # y = sin 6t

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 import yawdesign as yd
 from yawdesign.cli import app
-from yawdesign.output.export.c_files import ascii_text
+from yawdesign.exports.c_files import ascii_text
 from yawdesign.output.plots import literal, write_picture
 from yawdesign.output.tables import rendered
 

@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.response import following, frequency, march, simulate, text_file
+from yawdesign.response.modes import followed_modes as following
+from yawdesign.response.run import frequency, simulate
+from yawdesign.response.run import time_steps as march
+from yawdesign.response.track import text_file
 
 PROBLEM = yd.table1().replace(C_s=1e6)
 

@@ -9,7 +9,7 @@ import pytest
 
 import yawdesign as yd
 from yawdesign.problem import ProblemError
-from yawdesign.study import chunks
+from yawdesign.study import executors as chunks
 from yawdesign.study import sweep as sweeps
 from yawdesign.study.axes import ROWS
 from yawdesign.study.question import QUANTITIES

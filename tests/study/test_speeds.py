@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from yawdesign.stability.modes import core_eigenvalues, core_matrix
-from yawdesign.study.points import evaluate
+from yawdesign.hunting.eigenvalues import core_eigenvalues, core_matrix
+from yawdesign.study.answers import evaluate
 from yawdesign.study.question import SEARCHED, Question
 
 

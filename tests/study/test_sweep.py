@@ -198,7 +198,7 @@ def test_an_unverified_point_keeps_no_number(monkeypatch):
         values = np.array([1.0, 2.0, 3.0])
         return Answers({"decay_rate": values}, np.ones(3, bool), np.array([False, True, False]))
 
-    monkeypatch.setattr("yawdesign.study.chunks.evaluate", doubtful)
+    monkeypatch.setattr("yawdesign.study.executors.evaluate", doubtful)
     result = yd.sweep(PRINTED, of="decay_rate", lambda_=[0.1, 0.2, 0.3])
     assert result.to_dict()["values"] == [1.0, None, 3.0]
     assert result.good.tolist() == [True, False, True]

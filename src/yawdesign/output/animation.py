@@ -8,8 +8,8 @@ from yawdesign.output.mode_plots import mode_shape
 from yawdesign.output.plan_view import COLOURS, REST, Body, Corner, bodies, caption, find_mode, half_size, subtitle
 from yawdesign.output.plots import ANIMATIONS, own_texts
 from yawdesign.output.targets import Target, checked_targets
-from yawdesign.problem.writing import write_whole
-from yawdesign.response.modes import Modes, NamedMode
+from yawdesign.problem.whole_files import write_whole
+from yawdesign.response.modes.named_modes import Modes, NamedMode
 
 FRAMES, PERIOD = 24, 1.6  # pictures and seconds of a cycle
 SCALE = 100.0  # units of the SVG in a metre

@@ -5,15 +5,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from yawdesign.output.plots import new_axes
-from yawdesign.output.study_plots import COLOURS, STABLE, UNSTABLE, legend_below
+from yawdesign.output.sweep_plots import COLOURS, STABLE, UNSTABLE, legend_below
 from yawdesign.output.tables import margin
 from yawdesign.problem import PARAMETERS, ProblemError, format_quantity, to_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from yawdesign.design.forward import ForwardDesign
-    from yawdesign.design.optimise import Optimum
+    from yawdesign.damper.forward import ForwardDesign
+    from yawdesign.damper.optimise import Optimum
 
 DAMPING = to_unit(1.0, "kN·s/m")
 

@@ -4,11 +4,11 @@ import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from yawdesign.problem.writing import write_whole
+from yawdesign.problem.whole_files import write_whole
 from yawdesign.study.store import write_arrays
 
 if TYPE_CHECKING:
-    from yawdesign.response.simulate import Simulation
+    from yawdesign.response.run.simulate import Simulation
 
 
 def _columns(result: "Simulation") -> dict[str, Any]:

@@ -14,8 +14,8 @@ from yawdesign.problem.table import as_choice
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from yawdesign.response.following import FollowedModes
-    from yawdesign.response.modes import Modes
+    from yawdesign.response.modes.followed_modes import FollowedModes
+    from yawdesign.response.modes.named_modes import Modes
 
 STABLE, UNSTABLE = "#e8f3ea", "#fbeae8"
 QUANTITIES = ("root_locus", "damping_ratio", "frequency")

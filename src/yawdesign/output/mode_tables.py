@@ -13,8 +13,8 @@ from yawdesign.problem import PARAMETERS, format_quantity
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from yawdesign.response.following import FollowedModes
-    from yawdesign.response.modes import Modes
+    from yawdesign.response.modes.followed_modes import FollowedModes
+    from yawdesign.response.modes.named_modes import Modes
 
 LEAST_SHARE, MOST_NAMED = 0.05, 3
 

@@ -8,7 +8,7 @@ from yawdesign.problem import ProblemError, format_quantity
 from yawdesign.problem.diagnostics import unknown_key
 
 if TYPE_CHECKING:
-    from yawdesign.response.modes import Modes, NamedMode
+    from yawdesign.response.modes.named_modes import Modes, NamedMode
 
 Corner = tuple[float, float]
 AMPLITUDE = 0.16  # drawn size of the largest displacement, relative to the half wheelbase

@@ -10,7 +10,7 @@ from unicodedata import category
 
 from yawdesign.problem import ProblemError
 from yawdesign.problem.arguments import checked, refused
-from yawdesign.problem.writing import write_whole
+from yawdesign.problem.whole_files import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,7 +23,7 @@ TEXTS = {"text.usetex": False, "text.parse_math": True}
 
 # What draws which kind of result, as module and function.
 DRAWN_BY: dict[str, tuple[str, str]] = {
-    "Sweep": ("yawdesign.output.study_plots", "draw"),
+    "Sweep": ("yawdesign.output.sweep_plots", "draw"),
     "ForwardDesign": ("yawdesign.output.design_plots", "draw_design"),
     "Optimum": ("yawdesign.output.design_plots", "draw_optimum"),
     "DamperComponent": ("yawdesign.output.response_plots", "damper_component"),

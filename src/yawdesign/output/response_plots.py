@@ -9,10 +9,10 @@ from yawdesign.problem import ProblemError, format_quantity
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from yawdesign.response.component import DamperComponent
-    from yawdesign.response.frequency import FrequencyResponse
-    from yawdesign.response.simulate import Simulation
-    from yawdesign.response.synthesis import SpectrumCheck
+    from yawdesign.response.run.damper_component import DamperComponent
+    from yawdesign.response.run.frequency import FrequencyResponse
+    from yawdesign.response.run.simulate import Simulation
+    from yawdesign.response.track.spectrum_check import SpectrumCheck
 
 LATERAL, YAW = "#1f5a96", "#c0504d"
 COLOURS = (LATERAL, YAW, "#4f8a4b", "#7a5ca8", "#b58900", "#5b6770")

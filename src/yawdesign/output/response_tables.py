@@ -12,8 +12,8 @@ from yawdesign.output.tables import _checked, _facts, _table, damping, speed
 from yawdesign.problem import format_quantity
 
 if TYPE_CHECKING:
-    from yawdesign.response.component import DamperComponent
-    from yawdesign.response.simulate import Simulation
+    from yawdesign.response.run.damper_component import DamperComponent
+    from yawdesign.response.run.simulate import Simulation
 
 DEGREES = 57.29577951308232
 

@@ -11,10 +11,10 @@ from rich.text import Text
 from yawdesign.problem import PARAMETERS, format_quantity
 
 if TYPE_CHECKING:
-    from yawdesign.design.forward import ForwardDesign
-    from yawdesign.design.optimise import Optimum
-    from yawdesign.output.export.write import Export
-    from yawdesign.stability.verdict import Mode, Stability
+    from yawdesign.damper.forward import ForwardDesign
+    from yawdesign.damper.optimise import Optimum
+    from yawdesign.exports.write import Export
+    from yawdesign.hunting.verdict import Mode, Stability
 
 DAMPING = "kN·s/m"
 SHOWN = 10  # sensitivities

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import Mistakes
-from yawdesign.problem.writing import is_stream
+from yawdesign.problem.whole_files import is_stream
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,9 @@
 """What was written: units, the table of parameters, problem files, and the problem they describe."""
 
 from .diagnostics import Diagnostic, ProblemError
-from .model import Problem
 from .parameters import PARAMETERS, Bogie
 from .presets import table1
+from .problem import Problem
 from .quantities import format_quantity, parse_quantity, to_unit
 from .reader import load, loads, read
 from .running import Curve, SpeedRange

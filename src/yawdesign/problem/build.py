@@ -6,8 +6,8 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from .model import Problem
 from .parameters import Bogie
+from .problem import Problem
 from .running import Curve, SpeedRange
 from .table import field_name
 from .variables import Design, Variable

@@ -9,9 +9,9 @@ from typing import Any
 from .build import build
 from .diagnostics import Mistakes
 from .document import compose, plain_data
-from .model import EQUATIONS, Problem
-from .models import problem_model
+from .file_shape import problem_model
 from .parameters import KINDS, parameter_keys
+from .problem import EQUATIONS, Problem
 from .table import as_choice
 
 

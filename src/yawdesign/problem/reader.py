@@ -12,10 +12,10 @@ from .build import build
 from .diagnostics import Diagnostic, ProblemError
 from .document import MOST_BYTES, Document, Path, compose, plain_data
 from .faults import dotted, faults
-from .model import Problem
-from .models import PRESETS, problem_model
+from .file_shape import PRESETS, problem_model
 from .parameters import PARAMETERS
 from .presets import preset_bogie
+from .problem import Problem
 from .running import CURVE, SPEED
 from .table import Parameter
 

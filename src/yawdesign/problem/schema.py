@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .models import problem_model
+from .file_shape import problem_model
 from .parameters import MOTOR_KEYS, PARAMETERS, parameter_keys
 
 _TRAILER = {"required": ["kind"], "properties": {"kind": {"const": "trailer"}}}

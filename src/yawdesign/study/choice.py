@@ -1,4 +1,4 @@
-"""The forward design of many points at once: `yawdesign.design.forward`, on arrays."""
+"""The forward design of many points at once: `yawdesign.damper.forward`, on arrays."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign.design.forward import GOLDEN, UNDAMPED
-from yawdesign.stability.many.critical_values import CriticalField
+from yawdesign.damper.forward import GOLDEN, UNDAMPED
+from yawdesign.hunting.many.critical_values import CriticalField
 
 Float = NDArray[np.float64]
 Bools = NDArray[np.bool_]

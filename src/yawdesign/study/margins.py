@@ -3,13 +3,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign.bogie.polynomials import Polynomial, scale_variable
-from yawdesign.stability.many import kernels
-from yawdesign.stability.many.block import Block
-from yawdesign.stability.modes import MARGINS, backward_error, core_matrix, count_undamped
-from yawdesign.stability.routh import TIME_UNIT
-from yawdesign.stability.verdict import EXACT, fixed_factors
+from yawdesign.hunting.eigenvalues import MARGINS, backward_error, core_matrix, count_undamped
+from yawdesign.hunting.many import counts as kernels
+from yawdesign.hunting.many.parameter_sets import Block
+from yawdesign.hunting.routh import TIME_UNIT
+from yawdesign.hunting.verdict import EXACT, fixed_factors
 from yawdesign.study.question import Question
+from yawdesign.vehicle.polynomials import Polynomial, scale_variable
 
 Float = NDArray[np.float64]
 Bools = NDArray[np.bool_]

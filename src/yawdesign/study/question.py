@@ -40,7 +40,7 @@ class Question:
     of : str
         One of `QUANTITIES`.
     kind, equations : str
-        As in `yawdesign.bogie.vehicles.bogie`.
+        As in `yawdesign.vehicle.catalogue.bogie`.
     speeds : tuple of float
         Running speeds [m/s] where ``v`` is no axis; the answer holds for all of them. For the critical speed the
         first and the last are the ends of the range that is searched.

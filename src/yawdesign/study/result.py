@@ -17,7 +17,7 @@ from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import unknown_key
 from yawdesign.problem.result import Result, plain
 from yawdesign.study.axes import Axis, shape
-from yawdesign.study.keeping import KeptFile
+from yawdesign.study.kept_file import KeptFile
 from yawdesign.study.question import QUANTITIES, UNITS, Array
 from yawdesign.study.request import Request
 from yawdesign.study.store import MASKS, Store
@@ -139,7 +139,7 @@ class Sweep(Result):
 
     def to_xarray(self) -> "xarray.Dataset":
         """Return an `xarray.Dataset` with coordinates, units and provenance; it can be written as netCDF."""
-        from yawdesign.study.files import dataset
+        from yawdesign.study.labelled_data import dataset
 
         return dataset(self)
 
@@ -160,7 +160,7 @@ class Sweep(Result):
         OSError
             If it cannot be written.
         """
-        from yawdesign.study.files import write_csv
+        from yawdesign.study.labelled_data import write_csv
 
         write_csv(self, Path(path), replace=replace)
 
@@ -169,7 +169,7 @@ class Sweep(Result):
 
         Parameters, errors: as in `to_csv`.
         """
-        from yawdesign.study.files import write_npz
+        from yawdesign.study.labelled_data import write_npz
 
         write_npz(self, Path(path), replace=replace)
 
@@ -178,7 +178,7 @@ class Sweep(Result):
 
         Parameters, errors: as in `to_csv`.
         """
-        from yawdesign.study.files import write_netcdf
+        from yawdesign.study.labelled_data import write_netcdf
 
         write_netcdf(self, Path(path), replace=replace)
 

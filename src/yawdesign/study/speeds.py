@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign.stability.many import kernels
-from yawdesign.stability.many.block import Block
-from yawdesign.stability.many.critical_values import Rows
-from yawdesign.stability.modes import count_undamped
+from yawdesign.hunting.eigenvalues import count_undamped
+from yawdesign.hunting.many import counts as kernels
+from yawdesign.hunting.many.critical_values import Rows
+from yawdesign.hunting.many.parameter_sets import Block
 from yawdesign.study.margins import eigenvalues
 from yawdesign.study.question import Answers, Question
 

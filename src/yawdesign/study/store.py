@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.problem.stopping import held
-from yawdesign.problem.writing import whole_file
+from yawdesign.problem.whole_files import whole_file
 from yawdesign.study.question import Answers, Array
 
 MASKS = ("finished", "recomputed", "unverified")

@@ -12,8 +12,8 @@ from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.running import SpeedRange
 from yawdesign.problem.stopping import held, request_to_stop
 from yawdesign.study.axes import Axis
-from yawdesign.study.chunks import as_executor, fill
-from yawdesign.study.keeping import KeptFile
+from yawdesign.study.executors import as_executor, fill
+from yawdesign.study.kept_file import KeptFile
 from yawdesign.study.request import Request, request
 from yawdesign.study.result import Sweep, gathered
 from yawdesign.study.store import Store

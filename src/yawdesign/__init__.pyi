@@ -1,0 +1,57 @@
+"""The public names: each stands here once, for type checkers and for the package, which reads this file."""
+
+from yawdesign.damper.forward import ForwardDesign as ForwardDesign
+from yawdesign.damper.forward import design as design
+from yawdesign.damper.optimise import Optimum as Optimum
+from yawdesign.damper.optimise import optimise as optimise
+from yawdesign.exports.fmu.archive import Fmu as Fmu
+from yawdesign.exports.fmu.archive import write_fmu as write_fmu
+from yawdesign.exports.functions import functions as functions
+from yawdesign.exports.state_space import StateSpaceModel as StateSpaceModel
+from yawdesign.exports.state_space import state_space as state_space
+from yawdesign.exports.write import Export as Export
+from yawdesign.exports.write import export as export
+from yawdesign.hunting.verdict import Stability as Stability
+from yawdesign.hunting.verdict import stability as stability
+from yawdesign.output.animation import animate as animate
+from yawdesign.output.plots import plot as plot
+from yawdesign.problem import PARAMETERS as PARAMETERS
+from yawdesign.problem import Bogie as Bogie
+from yawdesign.problem import Curve as Curve
+from yawdesign.problem import Design as Design
+from yawdesign.problem import Problem as Problem
+from yawdesign.problem import ProblemError as ProblemError
+from yawdesign.problem import SpeedRange as SpeedRange
+from yawdesign.problem import Variable as Variable
+from yawdesign.problem import load as load
+from yawdesign.problem import loads as loads
+from yawdesign.problem import schema as schema
+from yawdesign.problem import table1 as table1
+from yawdesign.response.modes.followed_modes import FollowedModes as FollowedModes
+from yawdesign.response.modes.followed_modes import follow_modes as follow_modes
+from yawdesign.response.modes.named_modes import Modes as Modes
+from yawdesign.response.modes.named_modes import modes as modes
+from yawdesign.response.run.damper_component import DamperComponent as DamperComponent
+from yawdesign.response.run.frequency import FrequencyResponse as FrequencyResponse
+from yawdesign.response.run.frequency import frequency_response as frequency_response
+from yawdesign.response.run.simulate import Simulation as Simulation
+from yawdesign.response.run.simulate import damper_component as damper_component
+from yawdesign.response.run.simulate import simulate as simulate
+from yawdesign.response.run.stationary import StationaryResponse as StationaryResponse
+from yawdesign.response.run.stationary import stationary_response as stationary_response
+from yawdesign.response.track.measured import MeasuredTrack as MeasuredTrack
+from yawdesign.response.track.measured import read_track as read_track
+from yawdesign.response.track.spectra import SPECTRA as SPECTRA
+from yawdesign.response.track.spectra import Spectrum as Spectrum
+from yawdesign.response.track.spectrum_check import SpectrumCheck as SpectrumCheck
+from yawdesign.response.track.spectrum_check import spectrum_check as spectrum_check
+from yawdesign.response.track.tabulated_spectra import read_spectrum as read_spectrum
+from yawdesign.response.track.tracks import Band as Band
+from yawdesign.response.track.tracks import Harmonic as Harmonic
+from yawdesign.response.track.tracks import RandomTrack as RandomTrack
+from yawdesign.response.track.tracks import Sinusoid as Sinusoid
+from yawdesign.study.result import Sweep as Sweep
+from yawdesign.study.sweep import IncompleteSweepError as IncompleteSweepError
+from yawdesign.study.sweep import sweep as sweep
+
+__version__: str

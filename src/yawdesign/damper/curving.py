@@ -1,0 +1,72 @@
+"""The curving limit of the yaw damper, eqs (13) and (14).
+
+On a curve of radius R the bogie turns by L / (2 R) under the car body, over a transition of length l at speed V_r, so
+at the rate L V_r / (2 R l). The moment that resists is
+``T = (C_s b_3^2 + C_t b_0^2) L V_r / (2 R l) + K_2x b_2^2 L / (2 R)``, and eq. (13) limits T / (4 Q a).
+"""
+
+from collections.abc import Iterable, Mapping
+
+from yawdesign.problem import PARAMETERS, Curve, format_quantity
+from yawdesign.vehicle.catalogue import Parameters
+from yawdesign.vehicle.polynomials import Number
+
+LOADS = {"axle": "Q = W, the axle load (the paper)", "wheel": "Q = W/2, the wheel load (railway standards)"}
+
+# What the rotational resistance rises with, and what it falls with, eq. (13).
+RAISING = frozenset({"C_s", "C_t", "K_2x", "b_0", "b_2", "b_3"})
+LOWERING = frozenset({"W", "a"})
+
+
+def resisting_moment(p: Parameters, C_s: Number, curve: Curve) -> Number:
+    """Return the moment T that resists the bogie's rotation [N m], of any number type."""
+    angle = curve.L / (2 * curve.R)
+    rate = angle * curve.V_r / curve.l
+    damping = C_s * p["b_3"] * p["b_3"] + p["C_t"] * p["b_0"] * p["b_0"]
+    return damping * rate + p["K_2x"] * p["b_2"] * p["b_2"] * angle
+
+
+def resistance_scale(p: Parameters, curve: Curve) -> Number:
+    """Return 4 Q a [N m] with the load that the curve names."""
+    return p["W"] * p["a"] * (4 if curve.load == "axle" else 2)
+
+
+def rotational_resistance(p: Parameters, C_s: Number, curve: Curve) -> Number:
+    """Return T / (4 Q a) of eq. (13) [-].
+
+    Parameters
+    ----------
+    p : mapping
+        Symbols of Table I in SI units.
+    C_s : number
+        Damping of the pair of yaw dampers [N s/m].
+    curve : Curve
+        The curve; its `load` says whether Q is the axle load (the paper) or the wheel load (railway standards).
+    """
+    return resisting_moment(p, C_s, curve) / resistance_scale(p, curve)
+
+
+def curving_limit(p: Parameters, curve: Curve) -> Number:
+    """Return C_su of eq. (14) [N s/m], the damping with which T / (4 Q a) reaches the curve's limit; maybe negative.
+
+    Examples
+    --------
+    >>> import yawdesign as yd
+    >>> problem = yd.table1()
+    >>> round(curving_limit(problem.bogie.parameters(), problem.curve), 3)
+    2593442.982
+    """
+    rest = resisting_moment(p, 0, curve)
+    slope = p["b_3"] * p["b_3"] * curve.L * curve.V_r / (2 * curve.R * curve.l)
+    return (curve.limit * resistance_scale(p, curve) - rest) / slope
+
+
+def excess(values: Mapping[str, float], variables: Iterable[str], curve: Curve) -> str:
+    """Return in words by how much the limit is exceeded at the variables' values of least rotational resistance."""
+    names = [name for name in variables if name in RAISING | LOWERING]
+    where = ", ".join(f"{name} = {format_quantity(values[name], PARAMETERS[name].unit)}" for name in names)
+    at = f"at {where}, where it is least," if where else "which no design variable changes,"
+    if not values["W"]:
+        return f"T/(4 Q a), {at} has no bound without an axle load (W = 0)"
+    resistance = rotational_resistance(values, values["C_s"], curve)
+    return f"T/(4 Q a), {at} is {resistance:.6g}, and the limit is {curve.limit:.6g}"

@@ -1,0 +1,176 @@
+"""Global search of a design space: dense verdicts first, then refinement of the best point of many cells.
+
+A margin is the least of many smooth functions, with kinks and coalescing roots at its best points, and has many local
+optima. A verdict "is the margin above this level" by Routh's array costs about a microsecond, a margin by eigenvalues
+two hundred; so all points get a verdict against the best margin of their own cell, and few get a margin.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import qmc
+
+from yawdesign.damper.design_space import Float, Space
+
+BLOCK = 20_000  # points at once: enough to hide Python's overhead, few enough for any memory
+CELLS = 6  # cells per axis in up to three variables, each with a best point of its own; in all about 6^3
+STARTS = 20  # cells that are refined, in up to three variables; in more of them more
+OTHERS = 4900  # points in the variables other than C_s
+LINE = 72  # points along C_s
+MOST_SPLIT = 9  # variables whose axes are divided into cells: their number doubles with each
+
+Progress = Callable[[str, float], None]
+
+
+@dataclass
+class _Cells:
+    """The best point of every cell; the last of the axes are divided, C_s among them."""
+
+    x: Float
+    margin: Float
+    per_axis: int
+    axes: int
+
+    @classmethod
+    def of(cls, d: int) -> Self:
+        """Return the cells of a cube of d variables, with no points in them yet."""
+        axes = min(d, MOST_SPLIT)
+        per_axis = CELLS if d <= 3 else max(2, round(CELLS ** (3 / d)))
+        return cls(np.full((d, per_axis**axes), 0.5), np.full(per_axis**axes, -np.inf), per_axis, axes)
+
+    def index(self, x: Float) -> NDArray[np.intp]:
+        """Return the cell of each point."""
+        cells = np.minimum((x[-self.axes :] * self.per_axis).astype(int), self.per_axis - 1)
+        return np.asarray(np.ravel_multi_index(tuple(cells), (self.per_axis,) * self.axes))
+
+    def offer(self, x: Float, margin: Float) -> None:
+        """Keep those points that are better than their cell's best."""
+        for k in np.argsort(margin):
+            cell = self.index(x[:, k])
+            if margin[k] > self.margin[cell]:
+                self.margin[cell], self.x[:, cell] = margin[k], x[:, k]
+
+
+def search(space: Space, seed: int, progress: Progress) -> Float:
+    """Return refined points of the cube, shape (variables, points), the best first."""
+    d, rng = len(space.names), np.random.default_rng(seed)
+    cells = _Cells.of(d)
+    first = np.concatenate([qmc.Sobol(d, rng=rng).random(1024).T, space.anchors], axis=1)
+    cells.offer(first, space.margins_at(first))
+    blocks = list(_blocks(space, rng))
+    for k, x in enumerate(blocks):
+        progress("searching the design space", k / len(blocks))
+        _look(space, cells, x)
+    order = np.argsort(-cells.margin, kind="stable")[: STARTS * min(max(1, d - 2), MOST_SPLIT)]
+    order = order[np.isfinite(cells.margin[order])]
+    return refine(space, cells.x[:, order], cells.margin[order], rng, progress=progress)
+
+
+def _look(space: Space, cells: _Cells, x: Float) -> None:
+    levels = np.maximum(cells.margin[cells.index(x)], -1e3)
+    flat = np.broadcast_to(space.beats(space.values(x), levels), x.shape[1:])
+    chosen = x[:, flat]
+    for part in np.array_split(chosen, max(1, chosen.shape[1] // 500), axis=1):
+        if part.shape[1]:
+            cells.offer(part, space.margins_at(part))
+
+
+def _blocks(space: Space, rng: np.random.Generator) -> Iterator[Float]:
+    """Yield blocks of points: a grid in up to two variables beside C_s, a Sobol sequence in more; a line in C_s."""
+    has_damping = space.names[-1] == "C_s"
+    others = len(space.names) - has_damping
+    line = {0: 20_000, 1: 400}.get(others, LINE) if has_damping else 1
+    total = OTHERS if has_damping else 262_144
+    points = _others(others, total, rng)
+    size = max(1, BLOCK // line)
+    for start in range(0, points.shape[1], size):
+        block = points[:, start : start + size]
+        if not has_damping:
+            yield block
+            continue
+        # Every line has its own phase, so that together they miss no damping.
+        steps = (np.arange(line) + rng.random((block.shape[1], 1))) / line
+        wide = np.broadcast_to(block[:, :, None], (others, *steps.shape))
+        yield np.concatenate([wide.reshape(others, steps.size), steps.reshape(1, -1)])
+
+
+def _others(d: int, total: int, rng: np.random.Generator) -> Float:
+    if d == 0:
+        return np.zeros((0, 1))
+    if d > 2:
+        return np.asarray(qmc.Sobol(d, rng=rng).random(1 << (total - 1).bit_length()).T)
+    n = round(total ** (1 / d)) if d == 2 else min(total, 2000)
+    axes = np.meshgrid(*[np.linspace(0, 1, n)] * d, indexing="ij")
+    jitter = rng.random((d, 1)) - 0.5
+    return np.clip(np.stack([axis.ravel() for axis in axes]) + jitter / n, 0, 1)
+
+
+def refine(
+    space: Space,
+    x: Float,
+    margin: Float,
+    rng: np.random.Generator,
+    *,
+    radius: float = 0.03,
+    until: float = 1e-5,
+    rounds: int = 40,
+    points: int = 192,
+    progress: Progress = lambda text, part: None,
+) -> Float:
+    """Return points improved by shrinking random stencils, all at once, the best first.
+
+    Each point has a radius of its own, which grows with success and shrinks without, until it is small enough or the
+    rounds are over. Half of a stencil follows the
+    last successful step, which is how it walks along a ridge. Points that have come close to a better one are dropped.
+    """
+    d, n = x.shape
+    x, margin, size, step = x.copy(), margin.copy(), np.full(n, radius), np.zeros((d, n))
+    for count in range(rounds):
+        k = np.flatnonzero(size > until)
+        if not k.size:
+            break
+        progress("refining the best designs", count / rounds)
+        trial = _stencil(x[:, k], size[k], step[:, k], points, rng)
+        better, value = _best_of(space, trial, margin[k])
+        won = value > margin[k]
+        step[:, k] = np.where(won, better - x[:, k], step[:, k] * 0.5)
+        x[:, k], margin[k] = np.where(won, better, x[:, k]), np.where(won, value, margin[k])
+        size[k] = np.where(won, np.minimum(1.5 * size[k], 0.2), 0.7 * size[k])
+        keep = _distinct(x, margin, size)
+        x, margin, size, step = x[:, keep], margin[keep], size[keep], step[:, keep]
+    return x[:, np.argsort(-margin, kind="stable")]
+
+
+def _stencil(x: Float, size: Float, step: Float, points: int, rng: np.random.Generator) -> Float:
+    d, n = x.shape
+    noise = rng.standard_normal((d, n, points)) * size[:, None] * rng.random((1, n, points)) ** 2
+    along = step[:, :, None] * rng.exponential(1.5, (1, n, points)) * (np.arange(points) % 2)
+    return np.asarray(np.clip(x[:, :, None] + noise + along, 0, 1))
+
+
+def _best_of(space: Space, trial: Float, level: Float) -> tuple[Float, Float]:
+    """Return the best point of each stencil and its margin, found with verdicts at rising levels."""
+    d, n, m = trial.shape
+    values = space.values(trial.reshape(d, -1))
+    beats = np.broadcast_to(space.beats(values, np.repeat(level, m)), n * m).reshape(n, m)
+    best, margin = trial[:, :, 0].copy(), np.full(n, -np.inf)
+    rows, columns = np.nonzero(beats & (np.cumsum(beats, axis=1) <= 12))
+    if rows.size:
+        found = space.margins_at(trial[:, rows, columns])
+        for k in np.argsort(found):
+            best[:, rows[k]], margin[rows[k]] = trial[:, rows[k], columns[k]], found[k]
+    return best, margin
+
+
+def _distinct(x: Float, margin: Float, size: Float) -> NDArray[np.intp]:
+    """Return the points to go on with: none close to a better one, none ten per cent behind late."""
+    keep: list[int] = []
+    for k in np.argsort(-margin, kind="stable"):
+        near = any(np.max(np.abs(x[:, k] - x[:, j])) < max(size[k], 1e-3) for j in keep)
+        late = bool(keep) and size[k] < 1e-3 and margin[k] < margin[keep[0]] - 0.1 * abs(margin[keep[0]])
+        if not near and not late:
+            keep.append(int(k))
+    return np.array(keep, dtype=np.intp)

@@ -1,0 +1,131 @@
+"""Writing the archive of an FMU."""
+
+import io
+import uuid
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from yawdesign.exports.equations_of_motion import equations_of_motion, motion_source
+from yawdesign.exports.fmu.compiler import CannotCompileError, compile_library, library_suffix, platform_name
+from yawdesign.exports.fmu.description import IDENTIFIER, build_description, header, model_description
+from yawdesign.exports.fmu.variables import variables
+from yawdesign.hunting.verdict import given_damping
+from yawdesign.problem import Problem, ProblemError
+from yawdesign.problem.result import Result
+from yawdesign.problem.whole_files import refuse_existing, write_whole
+
+REMEDY = "the FMU holds its C code only: before it runs it must be compiled, such as with `fmpy compile`"
+
+
+@dataclass(frozen=True, repr=False)
+class Fmu(Result):
+    """An FMU that was written.
+
+    Parameters
+    ----------
+    path : str
+        The file.
+    platform : str or None
+        Machine for which it holds a library, such as ``x86_64-linux``; None if it holds C code only.
+    message : str
+        Why there is no library; empty if there is one.
+    """
+
+    path: str
+    platform: str | None
+    message: str
+
+
+def write_fmu(problem: Problem, path: str | Path, *, replace: bool = False) -> Fmu:
+    """Write the linear lateral motion of a problem's bogie as an FMU (FMI 3, model exchange).
+
+    Every symbol of Table I, `C_s` and the speed ``v`` are tunable parameters; the track under both wheelsets is the
+    input. The FMU holds a library for this machine, if there is a C compiler, and in any case the C code.
+
+    Parameters
+    ----------
+    problem : Problem
+        With a value of ``C_s``. Of a range of speeds the highest is the start value of ``v``.
+    path : str or Path
+        The file to write, ``*.fmu``.
+    replace : bool
+        Whether a file that is there is replaced.
+
+    Returns
+    -------
+    Fmu
+        Where it is and for which machine.
+
+    Raises
+    ------
+    ProblemError
+        If the problem has no ``C_s``, the name does not end in ``.fmu``, or the file exists.
+    OSError
+        If the file cannot be written.
+
+    Examples
+    --------
+    >>> import yawdesign as yd
+    >>> fmu = yd.write_fmu(yd.table1(), "bogie.fmu")  # doctest: +SKIP
+    """
+    path = Path(path)
+    if path.suffix != ".fmu":
+        raise ProblemError(f"{path.name} is not the name of an FMU: it must end in .fmu")
+    refuse_existing(path, replace)
+    texts = _texts(problem)
+    library, message = _library(texts)
+    place = f"binaries/{platform_name()}/{IDENTIFIER}{library_suffix()}"
+    write_whole(path, _archive({**texts, **({place: library} if library else {})}), replace=replace)
+    return Fmu(str(path), platform_name() if library else None, message)
+
+
+def _texts(problem: Problem) -> dict[str, bytes]:
+    """Return the files of the FMU, but for the library."""
+    p = {**problem.bogie.parameters(), "C_s": given_damping(problem), "v": max(problem.speeds)}
+    motion = equations_of_motion(p, problem.model)
+    table = variables(motion, p)
+    source, sizes = motion_source(motion)
+    frame = files("yawdesign.exports.fmu").joinpath("fmi3.c").read_text(encoding="utf-8")
+    token = f"{{{uuid.uuid5(uuid.NAMESPACE_OID, repr(table) + source + frame)}}}"
+    texts = {
+        "modelDescription.xml": model_description(table, token=token, title=_title(problem)),
+        "sources/buildDescription.xml": build_description(),
+        "sources/model.h": header(table, token=token, sizes=sizes),
+        "sources/motion.c": source,
+        "sources/fmi3.c": frame,
+    }
+    return {name: text.encode() for name, text in texts.items()}
+
+
+def _title(problem: Problem) -> str:
+    text = f"Lateral motion of a {problem.bogie.kind} bogie ({problem.equations} equations), linear, in SI units"
+    return f"{problem.title}. {text}" if problem.title else text
+
+
+def _library(texts: Mapping[str, bytes]) -> tuple[bytes, str]:
+    """Return the compiled library, or nothing and the reason."""
+    with TemporaryDirectory() as folder:
+        for name, text in texts.items():
+            Path(folder, Path(name).name).write_bytes(text)
+        library = Path(folder, IDENTIFIER)
+        try:
+            compile_library(Path(folder, "fmi3.c"), library)
+        except CannotCompileError as reason:
+            return b"", f"{reason}; {REMEDY}"
+        return library.read_bytes(), ""
+
+
+def _archive(contents: Mapping[str, bytes]) -> bytes:
+    """Return a ZIP archive without dates: the same problem gives the same bytes."""
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in contents.items():
+            entry = zipfile.ZipInfo(name)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.external_attr = (0o755 if name.startswith("binaries/") else 0o644) << 16
+            archive.writestr(entry, content)
+    return buffer.getvalue()

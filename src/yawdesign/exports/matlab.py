@@ -1,0 +1,30 @@
+"""The linear model as a MATLAB file."""
+
+from pathlib import Path
+
+import numpy as np
+
+from yawdesign.exports.parcel import Parcel, Unavailable
+from yawdesign.exports.state_space import state_space
+from yawdesign.output.texts import printable
+from yawdesign.problem import ProblemError
+
+STATE_SPACE = "state_space.mat"
+
+
+def write_mat(parcel: Parcel, folder: Path) -> list[str]:
+    """Write A, B, C, D, the names and units of states, inputs and outputs, C_s, speed and parameters."""
+    from scipy.io import savemat
+
+    try:
+        model = state_space(parcel.problem)
+    except ProblemError as error:
+        raise Unavailable(f"{STATE_SPACE} left out: {error}") from None
+    content: dict[str, object] = {name: getattr(model, name) for name in ("A", "B", "C", "D", "C_s", "speed")}
+    content["title"] = printable(model.title)
+    for kind in ("state", "input", "output"):
+        content[kind + "_names"] = np.array(getattr(model, kind + "s"), dtype=object)
+        content[kind + "_units"] = np.array(getattr(model, kind + "_units"), dtype=object)
+    content["parameters"] = {name: float(x) for name, x in parcel.problem.bogie.parameters().items()}
+    savemat(folder / STATE_SPACE, content, oned_as="column")
+    return [STATE_SPACE]

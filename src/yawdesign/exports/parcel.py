@@ -1,0 +1,46 @@
+"""What every kind of exported file is made of."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from yawdesign.exports.functions import Documented, SelfTest
+from yawdesign.exports.names import Names
+from yawdesign.problem import Problem
+
+
+@dataclass(frozen=True)
+class Parcel:
+    """Functions on their way into files.
+
+    Parameters
+    ----------
+    problem : Problem
+        Where they come from.
+    functions : mapping name -> Documented
+        The functions.
+    tests : mapping name -> SelfTest or None
+        Their self-test vectors.
+    names : Names
+        Of the C files and their symbols.
+    """
+
+    problem: Problem
+    functions: Mapping[str, Documented]
+    tests: Mapping[str, SelfTest | None]
+    names: Names = field(default_factory=Names)
+
+
+class Unavailable(Exception):  # noqa: N818 - no mistake of the user
+    """A kind of file that cannot be written here, or not in full, with the reason; the others are written.
+
+    Parameters
+    ----------
+    reason : str
+        Why.
+    files : tuple of str
+        What was written all the same.
+    """
+
+    def __init__(self, reason: str, files: tuple[str, ...] = ()) -> None:
+        super().__init__(reason)
+        self.files = files

@@ -1,0 +1,104 @@
+"""The linear model of a problem as plain matrices."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from yawdesign.exports.functions import functions
+from yawdesign.exports.states import state_names
+from yawdesign.problem import Problem, ProblemError
+from yawdesign.problem.result import Result
+from yawdesign.vehicle.signals import SignalNames
+
+Float = NDArray[np.float64]
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class StateSpaceModel(Result):
+    """The linear model x' = A x + B u, y = C x + D u of a bogie on its track.
+
+    Parameters
+    ----------
+    A, B, C, D : ndarray
+        Matrices, SI: 25 states (15 without motors), 4 inputs.
+    states, inputs, outputs : tuple of str
+        Names: coordinates ``y_b``, their velocities ``y_b_velocity``, the dampers' strokes ``yaw_damper_stroke``, ...;
+        ``alignment_1``, ``cross_level_1``, ...; coordinates, velocities, ``yaw_damper_pair_force`` and
+        ``yaw_damper_displacement``. They are those of `yawdesign.simulate`. The names before, ``v_y_b``, ``z_1``,
+        ``F_s`` and ``u_s``, are found by ``index`` until the next version.
+    state_units, input_units, output_units : tuple of str
+        SI units in the same order.
+    C_s, speed : float
+        Damping of the pair of yaw dampers [N s/m] and speed [m/s] to which this belongs.
+    title : str
+        Title of the problem.
+    """
+
+    A: Float
+    B: Float
+    C: Float
+    D: Float
+    states: SignalNames
+    inputs: tuple[str, ...]
+    outputs: SignalNames
+    state_units: tuple[str, ...]
+    input_units: tuple[str, ...]
+    output_units: tuple[str, ...]
+    C_s: float
+    speed: float
+    title: str
+
+    def to_control(self) -> Any:
+        """Return a `control.StateSpace` of python-control with named states, inputs and outputs."""
+        try:
+            import control
+        except ImportError:
+            text = "python-control is not installed: pip install 'yawdesign[control]'"
+            raise ProblemError(text) from None
+        labels = {"states": list(self.states), "inputs": list(self.inputs), "outputs": list(self.outputs)}
+        return control.ss(self.A, self.B, self.C, self.D, name="bogie", **labels)
+
+    def __repr__(self) -> str:
+        lines = [
+            f"StateSpaceModel: {len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs",
+            f"  C_s      {self.C_s:.9g} N s/m, speed {self.speed:.9g} m/s",
+        ]
+        for kind in ("state", "input", "output"):
+            named = zip(getattr(self, kind + "s"), getattr(self, kind + "_units"), strict=True)
+            lines.append(f"  {kind + 's':<8} " + ", ".join(f"{name} [{unit}]" for name, unit in named))
+        return "\n".join(lines)
+
+
+def state_space(problem: Problem) -> StateSpaceModel:
+    """Return the linear model of a problem's bogie as matrices, moved by the track.
+
+    Parameters
+    ----------
+    problem : Problem
+        With a value of ``C_s`` and one speed.
+
+    Raises
+    ------
+    ProblemError
+        If the problem has no ``C_s`` or a range of speeds.
+
+    Examples
+    --------
+    >>> import yawdesign as yd
+    >>> model = yd.state_space(yd.table1())
+    >>> model.A.shape, model.B.shape, model.inputs[0]
+    ((25, 25), (25, 4), 'alignment_1')
+    """
+    found = functions(problem, inputs=(), only=("state_matrix",))["state_matrix"]()
+    p, C_s = problem.bogie.parameters(), float(problem.bogie.C_s or 0.0)
+    names = state_names({**p, "v": problem.speeds[0]}, C_s, problem.model)
+    matrices: dict[str, Any] = {name: np.array(found[name].full()) for name in "ABCD"}
+    return StateSpaceModel(
+        **matrices,
+        **vars(names),
+        C_s=C_s,
+        speed=float(problem.speeds[0]),
+        title=problem.title,
+    )

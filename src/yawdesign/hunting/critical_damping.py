@@ -1,0 +1,129 @@
+"""All critical values of the yaw damping of one bogie, and the intervals of stability between them.
+
+They come from :mod:`yawdesign.hunting.many.critical_values`, which finds all of them. The smallest critical value
+need not be the boundary of stability, and stability may be lost again above another: eq. (11) of the paper and its
+"minimum positive real root" do not see that.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from yawdesign.hunting.boundary import polish
+from yawdesign.hunting.eigenvalues import backward_error, core_eigenvalues, count_undamped
+from yawdesign.hunting.many.critical_values import CriticalField, critical_field, recomputed
+from yawdesign.hunting.many.parameter_sets import Block
+from yawdesign.hunting.routh import TIME_UNIT
+from yawdesign.vehicle.catalogue import Parameters
+from yawdesign.vehicle.motions import Characteristic, characteristic
+
+Interval = tuple[float, float]
+
+TIGHT = 1e-9  # largest backward error of a critical value that counts as checked
+
+
+@dataclass(frozen=True)
+class CriticalValue:
+    """A yaw damping at which a pair of roots lies on the imaginary axis.
+
+    Parameters
+    ----------
+    C_s : float
+        Damping of the pair of yaw dampers [N s/m].
+    omega : float
+        Angular frequency of the motion at the boundary [rad/s].
+    becomes : {"stable", "unstable", "neither"}
+        What the bogie becomes when C_s grows through the value.
+    residual : float
+        Backward error of the characteristic polynomial at (C_s, j omega).
+    """
+
+    C_s: float
+    omega: float
+    becomes: str
+    residual: float
+
+
+@dataclass(frozen=True)
+class CriticalDamping:
+    """All critical values, and the stability between them.
+
+    Parameters
+    ----------
+    critical : tuple of CriticalValue
+        In ascending order of C_s.
+    unstable_roots : tuple of int
+        Number of roots of the coupled motion in the right half-plane, below the first critical value (towards 0),
+        between the first and the second, ..., above the last (towards infinity).
+    checked : bool
+        True if each critical value changes the number of unstable roots the way its root crosses the axis, by two
+        independent routes: Routh's array and the eigenvalues where double precision decides; else a Sturm chain and
+        Routh's array in so many digits that twice as many give the same answer.
+    """
+
+    critical: tuple[CriticalValue, ...]
+    unstable_roots: tuple[int, ...]
+    checked: bool
+
+    @property
+    def intervals(self) -> tuple[Interval, ...]:
+        """The open intervals of C_s that `unstable_roots` counts; the last one has no end."""
+        return tuple(pairwise([0.0, *(c.C_s for c in self.critical), np.inf]))
+
+    @property
+    def stable_intervals(self) -> tuple[Interval, ...]:
+        """The open intervals of C_s in which the coupled motion is stable."""
+        return tuple(i for i, n in zip(self.intervals, self.unstable_roots, strict=True) if n == 0)
+
+
+def critical_damping(p: Parameters, *, kind: str = "power", equations: str = "reciprocal") -> CriticalDamping:
+    """Return all critical values of the yaw damping of the coupled motion.
+
+    Parameters
+    ----------
+    p : mapping
+        Symbols of Table I in SI units and ``v``, all floats.
+    kind, equations : str
+        As in `yawdesign.vehicle.catalogue.bogie`.
+    """
+    block = Block(p, 1)
+    field = critical_field(block, kind=kind, equations=equations)
+    if not field.recomputed[0] and not _eigenvalues_agree(p, field, kind=kind, equations=equations):
+        field = recomputed(field, block, [0], kind=kind, equations=equations)
+    found = [*zip(*field.values_at(0), strict=True)]
+    if not field.recomputed[0]:
+        found = polish(p, found, kind=kind, equations=equations)
+    counts = field.counts_at(0)
+    c = characteristic(p, kind=kind, equations=equations)
+    values = tuple(
+        CriticalValue(C_s, omega, _becomes(before, after), _residual(c, C_s, omega))
+        for (C_s, omega), (before, after) in zip(found, pairwise(counts), strict=True)
+    )
+    return CriticalDamping(values, counts, not field.unverified[0] and all(x.residual < TIGHT for x in values))
+
+
+def _eigenvalues_agree(p: Parameters, field: CriticalField, *, kind: str, equations: str) -> bool:
+    """Return whether the eigenvalues count as many unstable roots in every interval."""
+    values, _ = field.values_at(0)
+    places = _places(values, p["K_ds"])
+    found = [count_undamped(core_eigenvalues(p, C_s, kind=kind, equations=equations)) for C_s in places]
+    return tuple(map(int, found)) == field.counts_at(0)
+
+
+def _places(values: Sequence[float], K_ds: float) -> list[float]:
+    """Return one damping in every interval; without critical values the one whose joint relaxes at 100 rad/s."""
+    if not values:
+        return [K_ds / TIME_UNIT]
+    return [values[0] / 2, *(float(np.sqrt(a * b)) for a, b in pairwise(values)), 2 * values[-1]]
+
+
+def _becomes(before: int, after: int) -> str:
+    if before and not after:
+        return "stable"
+    return "unstable" if after and not before else "neither"
+
+
+def _residual(c: Characteristic, C_s: float, omega: float) -> float:
+    return float(backward_error(c.core(C_s), 1j * np.asarray(omega)))

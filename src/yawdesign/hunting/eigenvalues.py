@@ -1,0 +1,144 @@
+"""Eigenvalues of the bogie, and the margins that are read from them."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from yawdesign.hunting.routh import TIME_UNIT
+from yawdesign.vehicle.assembly import StateSpace, folded, physical
+from yawdesign.vehicle.catalogue import Parameters, bogie
+from yawdesign.vehicle.elements import Link, Mass, Single, WheelRailContact
+from yawdesign.vehicle.polynomials import Number, Polynomial, derivative, evaluate, scale_variable
+
+Complex = NDArray[np.complex128]
+Float = NDArray[np.float64]
+
+
+def state_matrix(p: Parameters, C_s: Number, *, kind: str = "power", equations: str = "reciprocal") -> Float:
+    """Return the state matrix of the 25-state model (15 states without motors).
+
+    Parameters
+    ----------
+    p : mapping
+        Symbols of Table I in SI units and ``v``; numbers or arrays that broadcast against each other.
+    C_s : float or array
+        Damping of the pair of yaw dampers [N s/m].
+    kind, equations : str
+        As in `yawdesign.vehicle.catalogue.bogie`.
+
+    Returns
+    -------
+    ndarray, shape (..., n, n)
+    """
+    return _dense(physical(bogie({**p, "C_s": C_s}, kind=kind, equations=equations)))
+
+
+def core_matrix(p: Parameters, C_s: Number, *, kind: str = "power", equations: str = "reciprocal") -> Float:
+    """Return the state matrix of the coupled motion alone, in half sums and half differences of both ends.
+
+    Its eigenvalues are the roots of `Characteristic.core`. Arguments as in `state_matrix`.
+    """
+    elements = folded(bogie({**p, "C_s": C_s}, kind=kind, equations=equations))
+    decoupled = {"phi_m-"} | ({"phi_m+"} if equations == "as-printed" else set())
+    return _dense([e for e in elements if not _acts_within(e, decoupled)])
+
+
+def _acts_within(element: Single, coordinates: set[str]) -> bool:
+    match element:
+        case Mass():
+            return element.coordinate in coordinates
+        case Link():
+            return set(element.force) <= coordinates
+        case WheelRailContact():
+            return element.y in coordinates
+
+
+def _dense(elements: Sequence[Single]) -> Float:
+    system = StateSpace(elements)
+    shape = np.broadcast_shapes(*(np.shape(value) for value in system.entries.values()))
+    return np.asarray(system.fill(np.zeros((*shape, system.size, system.size))))
+
+
+def eigenvalues(matrix: Float) -> Complex:
+    """Return the eigenvalues of one matrix [1/s], the least damped first, conjugates together."""
+    return in_order(np.asarray(np.linalg.eigvals(matrix), dtype=complex))
+
+
+def in_order(s: Complex) -> Complex:
+    """Return roots, the least damped first, conjugates together."""
+    return np.asarray(sorted(s, key=lambda s: (-s.real, abs(s.imag), -s.imag)), dtype=complex)
+
+
+def core_eigenvalues(p: Parameters, C_s: Number, *, kind: str = "power", equations: str = "reciprocal") -> Complex:
+    """Return the eigenvalues of the coupled motion [1/s] along the last axis. Arguments as in `state_matrix`."""
+    return np.asarray(np.linalg.eigvals(core_matrix(p, C_s, kind=kind, equations=equations)), dtype=complex)
+
+
+def roots(p: Polynomial) -> Complex:
+    """Return the roots of a real polynomial, lowest power first [1/s]."""
+    down = np.trim_zeros(np.array(p[::-1], dtype=float), "f")
+    unit = (abs(down[-1] / down[0])) ** (1 / max(len(down) - 1, 1)) or 1.0
+    return np.asarray(np.roots(down / down[0] / unit ** np.arange(len(down))) * unit)
+
+
+def decay_rate(s: Complex) -> Float:
+    """Return minus the largest real part [1/s] over the last axis."""
+    return np.asarray(-np.max(s.real, axis=-1))
+
+
+def damping_ratio(s: Complex) -> Float:
+    """Return the least -Re(s)/|s| over the last axis; a stable real root counts as 1."""
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.min(np.where(s == 0, 0.0, -s.real / np.abs(s)), axis=-1))
+
+
+MARGINS = {"decay_rate": decay_rate, "damping_ratio": damping_ratio}
+
+
+def polished(p: Polynomial, s: Complex) -> Complex:
+    """Return eigenvalues after steps of Newton's method on their polynomial.
+
+    A matrix with a root that is very fast, such as that of a damper with hardly any damping, gives the slow ones with
+    the rounding of the fast one. No eigenvalue moves more than a quarter of the way to another one: none is lost.
+
+    Parameters
+    ----------
+    p : tuple
+        Real coefficients, lowest power first.
+    s : array
+        Eigenvalues [1/s], in any order.
+    """
+    scaled = scale_variable(p, TIME_UNIT)
+    gap = np.abs(s[:, None] - s[None, :]) / TIME_UNIT
+    np.fill_diagonal(gap, np.inf)
+    start = w = s / TIME_UNIT
+    with np.errstate(all="ignore"):
+        for _ in range(3):
+            outside = np.abs(w) > 1
+            z = np.where(outside, 1 / w, w)
+            near, far = (z - evaluate(q, z) / evaluate(derivative(q), z) for q in (scaled, scaled[::-1]))
+            new = np.where(outside, 1 / far, near)
+            w = np.where(np.isfinite(new) & (np.abs(new - start) < gap.min(axis=1) / 4), new, w)
+    return np.asarray(w * TIME_UNIT)
+
+
+def backward_error(p: Polynomial, s: Complex) -> Float:
+    """Return |p(s)| / sum |a_k| |s|^k: how far s is from being an exact root, relative to the coefficients."""
+    s = np.asarray(s)
+    scaled = scale_variable(p, TIME_UNIT)
+    # Powers of a stiff joint's root overflow; for large s the polynomial is taken in 1/s.
+    outside = np.abs(s) > TIME_UNIT
+    w = np.where(outside, TIME_UNIT / np.where(outside, s, 1), s / TIME_UNIT)
+    return np.where(outside, _relative(scaled[::-1], w), _relative(scaled, w))
+
+
+def _relative(p: Polynomial, s: Complex) -> Float:
+    # A root at zero is found to within the rounding of the others: powers of less than this say nothing.
+    size = np.maximum(np.abs(s), 1e-3)
+    return np.asarray(np.abs(evaluate(p, s)) / evaluate(tuple(np.abs(a) for a in p), size))
+
+
+def count_undamped(s: Complex) -> NDArray[np.int64]:
+    """Return the number of roots over the last axis that are not in the left half-plane, or within rounding of it."""
+    return np.asarray(np.sum(s.real > -1e-10 * np.maximum(1, np.abs(s)), axis=-1))

@@ -1,0 +1,239 @@
+"""Critical values of one bogie where double precision does not decide: rational coefficients, decimals of many digits.
+
+The coefficients are exact rationals. Their roots come from a Sturm chain and the counts of unstable roots from Routh's
+array, both in decimal numbers of so many digits that twice as many give the same answer. This is slow, some hundredths
+of a second a bogie, and shares nothing with the fast way but the polynomial.
+"""
+
+import decimal
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from itertools import pairwise
+
+from yawdesign.hunting.routh import routh_column
+from yawdesign.problem import exact
+from yawdesign.vehicle.catalogue import Parameters
+from yawdesign.vehicle.motions import Characteristic, characteristic
+from yawdesign.vehicle.polynomials import Polynomial, add, derivative, even_odd, multiply, scale, trim
+
+FIRST_DIGITS, LAST_DIGITS = 50, 1600
+FAR = Decimal("1e60")  # from the least and the largest critical value to where 0 and infinity are looked at
+SAME = Decimal("1e-18")  # relative difference of two values that are called the same
+
+Digits = tuple[Decimal, ...]
+
+
+class NotDecidedError(ArithmeticError):
+    """The digits do not suffice for an answer."""
+
+
+@dataclass(frozen=True)
+class ExactValues:
+    """Critical values in ascending order, and the unstable roots between them.
+
+    Parameters
+    ----------
+    critical : tuple of (C_s, omega)
+        Damping of the pair of yaw dampers [N s/m] and angular frequency [rad/s].
+    unstable_roots : tuple of int
+        From C_s -> 0 to C_s -> infinity.
+    """
+
+    critical: tuple[tuple[Decimal, Decimal], ...]
+    unstable_roots: tuple[int, ...]
+
+    def same(self, other: "ExactValues") -> bool:
+        """Return whether two computations agree."""
+        return self.unstable_roots == other.unstable_roots and all(
+            abs(a - b) <= SAME * abs(b)
+            for x, y in zip(self.critical, other.critical, strict=True)
+            for a, b in zip(x, y, strict=True)
+        )
+
+
+def exact_critical_values(p: Parameters, *, kind: str, equations: str) -> ExactValues:
+    """Return all critical values of the yaw damping of the coupled motion.
+
+    Parameters
+    ----------
+    p : mapping
+        Symbols of Table I in SI units and ``v``. A float stands for its shortest decimal.
+    kind, equations : str
+        As in `yawdesign.vehicle.catalogue.bogie`.
+
+    Raises
+    ------
+    NotDecidedError
+        If even the most digits give no answer that twice as many confirm, such as for values that coincide.
+    """
+    c = characteristic({name: exact(x) for name, x in p.items()}, kind=kind, equations=equations)
+    digits, before = FIRST_DIGITS, None
+    while digits <= LAST_DIGITS:
+        found = _with_digits(c, digits)
+        if found and before and found.same(before):
+            return found
+        digits, before = 2 * digits, found
+    raise NotDecidedError(f"{LAST_DIGITS} digits do not decide")
+
+
+def _with_digits(c: Characteristic, digits: int) -> ExactValues | None:
+    """Return the values computed with so many digits, or nothing where these leave a step open."""
+    with decimal.localcontext(decimal.Context(prec=digits, Emax=decimal.MAX_EMAX, Emin=decimal.MIN_EMIN)):
+        try:
+            return _values(c, digits)
+        except ArithmeticError:  # also decimal's own: 0/0, or what overflows
+            return None
+
+
+def _values(c: Characteristic, digits: int) -> ExactValues:
+    A, B = _decimals(c.A), _decimals(c.B)
+    roots = [_refined(chain[0], low, high, digits) for chain, low, high in _isolated(_phase(c), digits)]
+    critical = sorted((C_s, x.sqrt()) for x in roots if (C_s := _damping(A, B, x, digits)) > 0)
+    counts = tuple(_unstable(add(A, scale(B, C_s))) for C_s in _places([C_s for C_s, _ in critical]))
+    steps = [after - before for before, after in pairwise(counts)]
+    if steps != [2 * _direction(A, B, *value) for value in critical]:
+        raise NotDecidedError("a count does not change the way its root crosses the axis")
+    return ExactValues(tuple(critical), counts)
+
+
+def _phase(c: Characteristic) -> Digits:
+    """Return E_B O_A - E_A O_B in x = w^2, without its roots at zero."""
+    (even_a, odd_a), (even_b, odd_b) = even_odd(c.A), even_odd(c.B)
+    F = trim(add(multiply(even_b, odd_a), scale(multiply(even_a, odd_b), -1)))
+    return _decimals(trim(F[::-1])[::-1])
+
+
+def _decimals(p: Polynomial) -> Digits:
+    """Return exact coefficients as decimals, each rounded once."""
+    fractions = [Fraction(a) for a in p]
+    return tuple(Decimal(a.numerator) / Decimal(a.denominator) for a in fractions)
+
+
+def _isolated(F: Digits, digits: int) -> Iterator[tuple[list[Digits], Decimal, Decimal]]:
+    """Yield intervals with one positive root of F each, by the sign changes of its Sturm chain."""
+    if len(F) < 2:
+        return
+    chain = _sturm_chain(F, digits)
+    # The odd factor keeps the middles off round numbers, where exact roots may lie.
+    low, high = 1 / _bound(F[::-1]), Decimal("1.137") * _bound(F)
+    open_ = [(low, high, _changes(chain, low), _changes(chain, high))]
+    while open_:
+        low, high, left, right = open_.pop()
+        if left - right == 1:
+            yield chain, low, high
+        elif left != right:
+            middle = (low * high).sqrt()
+            if not low < middle < high:
+                raise NotDecidedError("two roots are closer than the digits")
+            between = _changes(chain, middle)
+            open_ += [(low, middle, left, between), (middle, high, between, right)]
+
+
+def _sturm_chain(F: Digits, digits: int) -> list[Digits]:
+    chain = [_unit(F), _unit(derivative(F))]
+    while len(chain[-1]) > 1:
+        chain.append(_remainder(chain[-2], chain[-1], digits))
+    return chain
+
+
+def _remainder(upper: Digits, lower: Digits, digits: int) -> Digits:
+    """Return minus the remainder of upper / lower, scaled; both have a largest coefficient of 1."""
+    rest = list(upper)
+    largest = Decimal(1)
+    while len(rest) >= len(lower):
+        quotient = rest.pop() / lower[-1]
+        place = len(rest) - len(lower) + 1
+        for k, a in enumerate(lower[:-1]):
+            rest[place + k] -= quotient * a
+        largest = max(largest, abs(quotient))
+    if max(map(abs, rest)) < largest.scaleb(-digits // 2):
+        raise NotDecidedError("a remainder is lost in rounding: there may be a double root")
+    return _unit([-a for a in rest])
+
+
+def _unit(p: Sequence[Decimal]) -> Digits:
+    """Return p with a largest coefficient of 1; the sign stays."""
+    size = max(map(abs, p))
+    return tuple(a / size for a in p)
+
+
+def _bound(F: Digits) -> Decimal:
+    """Return more than the magnitude of every root (Fujiwara)."""
+    n = len(F) - 1
+    # The power of ten above |a|, and the whole one above its root: ten times too far at most.
+    powers = [-(-((a / F[-1]).adjusted() + 1) // (n - k)) for k, a in enumerate(F[:-1]) if a]
+    return 2 * Decimal(1).scaleb(max(powers, default=0))
+
+
+def _value(p: Digits, x: Decimal) -> Decimal:
+    value = Decimal(0)
+    for a in reversed(p):
+        value = value * x + a
+    return value
+
+
+def _changes(chain: Sequence[Digits], x: Decimal) -> int:
+    values = [_value(p, x) for p in chain]
+    if not values[0]:
+        raise NotDecidedError("a root lies on the edge of an interval")
+    signs = [value > 0 for value in values if value]
+    return sum(a != b for a, b in pairwise(signs))
+
+
+def _refined(F: Digits, low: Decimal, high: Decimal, digits: int) -> Decimal:
+    """Return the only root in an interval, by Newton's method kept inside by halving."""
+    slope = derivative(F)
+    rising = _value(F, low) < 0
+    x, enough = (low * high).sqrt(), Decimal(1).scaleb(-digits // 2)
+    for _ in range(20 * digits):
+        value, steep = _value(F, x), _value(slope, x)
+        low, high = (x, high) if (value < 0) == rising else (low, x)
+        new = x - value / steep if steep else low
+        new = new if low < new < high else (low * high).sqrt()
+        if abs(new - x) <= enough * x:
+            return new
+        x = new
+    raise NotDecidedError("a root is not found to half the digits")
+
+
+def _damping(A: Digits, B: Digits, x: Decimal, digits: int) -> Decimal:
+    """Return C_s of the crossing at w^2 = x."""
+    (ea, oa), (eb, ob) = ([_value(part, x) for part in even_odd(p)] for p in (A, B))
+    top, bottom = ea * eb + x * oa * ob, eb * eb + x * ob * ob
+    if abs(top) < (abs(ea * eb) + abs(x * oa * ob)).scaleb(-digits // 4):
+        raise NotDecidedError("the sign of a critical damping is open")
+    return Decimal(-top / bottom)
+
+
+def _places(values: Sequence[Decimal]) -> list[Decimal]:
+    """Return one damping in every interval, the first and the last as good as 0 and infinity."""
+    ends = values or [Decimal(1)]
+    between = [(a * b).sqrt() for a, b in pairwise(values)]
+    places = [ends[0] / FAR, *between, ends[-1] * FAR]
+    return places if values else places[1:]
+
+
+def _unstable(core: Digits) -> int:
+    """Return the number of roots in the right half-plane by Routh's column."""
+    core = trim(core)
+    zeros = next(k for k, a in enumerate(core) if a)
+    signs = []
+    for entry in routh_column(core[zeros:]):
+        if not entry or entry != entry:
+            raise NotDecidedError("an entry of Routh's column is zero")
+        signs.append(bool(entry > 0))
+    return int(zeros) + sum(a != b for a, b in pairwise(signs))
+
+
+def _direction(A: Digits, B: Digits, C_s: Decimal, omega: Decimal) -> int:
+    """Return +1 if the root at a critical value moves to the right as C_s grows, else -1."""
+    x = omega * omega
+    even, odd = even_odd(add(A, scale(B, C_s)))
+    # p(j w) = E(x) + j w O(x); its derivative with respect to w is slope = 2 w E' + j (O + 2 x O').
+    real, imaginary = 2 * omega * _value(derivative(even), x), _value(odd, x) + 2 * x * _value(derivative(odd), x)
+    even_b, odd_b = (_value(part, x) for part in even_odd(B))
+    # ds/dC_s = j dw/dC_s = -j B / slope; its real part has the sign of Im(B conj(slope)).
+    turn = omega * odd_b * real - even_b * imaginary
+    return 1 if turn > 0 else -1

@@ -1,0 +1,172 @@
+"""A CasADi Function as a straight line of array operations, for many points at once.
+
+CasADi's own virtual machine goes through the graph once for every point. Here every operation of the graph runs on a
+block of points that stays in the processor's cache: with NumPy, or, where a C compiler is at hand, in a C function
+whose scalars are vectors of points. Both do the same operations in the same order and give the same bits.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from threading import Lock, local
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from yawdesign.hunting.many import compiled
+from yawdesign.hunting.many.compiled import Run
+from yawdesign.hunting.many.program import Program, Step
+
+Float = NDArray[np.float64]
+BLOCK = 8192  # points; long enough that NumPy's calls cost little, and a row still fits the innermost caches
+MANY = 100_000  # points after which a compilation, about half a second, has paid
+
+BINARY = {
+    ca.OP_ADD: (np.add, "{0} + {1}"),
+    ca.OP_SUB: (np.subtract, "{0} - {1}"),
+    ca.OP_MUL: (np.multiply, "{0} * {1}"),
+    ca.OP_DIV: (np.divide, "{0} / {1}"),
+    ca.OP_LT: (np.less, "LESS({0}, {1})"),
+}
+UNARY: dict[int, tuple[Callable[..., Any], str]] = {
+    ca.OP_NEG: (np.negative, "-{0}"),
+    ca.OP_FABS: (np.absolute, "SIZE({0})"),
+    ca.OP_INV: (lambda x, *out: np.divide(1.0, x, *out), "(ZERO + 1.0) / {0}"),
+}
+# Operations that CasADi writes with one operand and that are one with two.
+DOUBLED = {ca.OP_SQ: ca.OP_MUL, ca.OP_TWICE: ca.OP_ADD}
+
+
+@dataclass(frozen=True)
+class Operation:
+    """One operation of the graph: CasADi's code for it, the register of the result, those of its operands."""
+
+    code: int
+    target: int
+    sources: tuple[int, ...]
+
+
+class Tape:
+    """The operations of a CasADi Function of scalars.
+
+    Parameters
+    ----------
+    function : casadi.Function
+        Made of SX, of which every input is a scalar.
+
+    Attributes
+    ----------
+    inputs : tuple of str
+        Names of the inputs, in order.
+    size : int
+        Number of values that come out for each point.
+    """
+
+    def __init__(self, function: ca.Function) -> None:
+        self.inputs = tuple(function.name_in())
+        self.size = function.nnz_out()
+        self.constants: dict[int, float] = {}
+        self.steps: list[Operation] = []
+        self.results = [-1] * self.size
+        self._lock, self._asked, self._tried = Lock(), 0, False
+        self._fast: Run | None = None
+        self._own = local()
+        self._record(function)
+
+    def _record(self, function: ca.Function) -> None:
+        """Read the instructions, giving every value a register of its own."""
+        offsets = np.cumsum([0, *(function.nnz_out(k) for k in range(function.n_out()))])
+        place: dict[int, int] = {}
+        count = len(self.inputs)
+        for k in range(function.n_instructions()):
+            operation, into = function.instruction_id(k), function.instruction_output(k)
+            if operation == ca.OP_OUTPUT:
+                self.results[offsets[into[0]] + into[1]] = place[function.instruction_input(k)[0]]
+            elif operation == ca.OP_INPUT:
+                place[into[0]] = function.instruction_input(k)[0]
+            else:
+                if operation == ca.OP_CONST:
+                    self.constants[count] = function.instruction_constant(k)
+                else:
+                    sources = tuple(place[i] for i in function.instruction_input(k))
+                    self._add(operation, count, sources)
+                place[into[0]] = count
+                count += 1
+        self.registers = count
+
+    def _add(self, operation: int, target: int, sources: tuple[int, ...]) -> None:
+        if operation in DOUBLED:
+            operation, sources = DOUBLED[operation], (sources[0], sources[0])
+        if operation not in BINARY and operation not in UNARY:
+            raise NotImplementedError(f"no array operation for CasADi's operation {operation}")
+        self.steps.append(Operation(operation, target, sources))
+
+    def __call__(self, values: Mapping[str, Any]) -> Float:
+        """Return the outputs at many points.
+
+        Parameters
+        ----------
+        values : mapping
+            A number, or an array with one value for each point, for every input. Others may be there: they are not
+            read, but count as points.
+
+        Returns
+        -------
+        ndarray, shape (size, points)
+        """
+        arguments = [np.ascontiguousarray(values[name], dtype=float) for name in self.inputs]
+        points = max(np.size(x) for x in values.values())
+        out = np.empty((self.size, points))
+        self._runner(points)(arguments, out, 0, points)
+        return out
+
+    def _runner(self, points: int) -> Run:
+        """Return how to run: compiled, once so many points were asked for that compiling has paid."""
+        with self._lock:
+            self._asked += points
+            if self._asked >= MANY and not self._tried:
+                self._tried = True
+                run = compiled.load(self.source())
+                self._fast = run if run and self._agrees(run) else None
+                if run and not self._fast:
+                    compiled.note("it does not give the numbers of NumPy")
+            return self._fast or self._interpret
+
+    def _agrees(self, run: Run) -> bool:
+        """Return whether compiled code gives the bits of NumPy at points that cover full and broken vectors."""
+        random = np.random.default_rng(0)
+        arguments = [random.uniform(0.5, 2.0, 21 if k % 3 else 1) for k in range(len(self.inputs))]
+        one, two = np.empty((self.size, 21)), np.empty((self.size, 21))
+        run(arguments, one, 0, 21)
+        self._interpret(arguments, two, 0, 21)
+        return np.array_equal(one, two, equal_nan=True)
+
+    def source(self) -> str:
+        """Return the operations in C, on vectors of points."""
+        lines = [f"  const vector r{k} = load(in[{k}], stride[{k}], point, end);" for k in range(len(self.inputs))]
+        lines += [f"  const vector r{k} = ZERO + {_literal(x)};" for k, x in self.constants.items()]
+        for step in self.steps:
+            text = (BINARY if len(step.sources) == 2 else UNARY)[step.code][1]
+            lines.append(f"  const vector r{step.target} = {text.format(*(f'r{i}' for i in step.sources))};")
+        lines += [f"  store(out + {k} * points, r{register}, point, end);" for k, register in enumerate(self.results)]
+        return "\n".join(lines)
+
+    def _interpret(self, arguments: Sequence[Float], out: Float, start: int, end: int) -> None:
+        """Run the operations with NumPy."""
+        length = min(BLOCK, 1 << (end - start - 1).bit_length())
+        key = length, tuple(x.size == 1 for x in arguments)
+        programs: dict[Any, Program] = vars(self._own).setdefault("programs", {})
+        if key not in programs:
+            steps = [_bound(step) for step in self.steps]
+            programs[key] = Program(steps, self.constants, key[1], self.results, length)
+        programs[key](arguments, out, start, end)
+
+
+def _bound(step: Operation) -> Step:
+    function = (BINARY if len(step.sources) == 2 else UNARY)[step.code][0]
+    return Step(function, step.target, step.sources, step.code == ca.OP_LT, step.code == ca.OP_MUL)
+
+
+def _literal(value: float) -> str:
+    return float(value).hex()

@@ -1,0 +1,142 @@
+"""Routh's scheme: whether all roots of a polynomial in the left half-plane, left of a line, inside a sector.
+
+No determinant is ever formed. The scheme divides only by its own leading entries, so it runs on floats, arrays (many
+bogies at once), CasADi SX and rationals. A zero leading entry makes what follows NaN or infinite: not a verdict, and
+`is_stable` then answers False; whoever needs certainty near the boundary asks the eigenvalues.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from yawdesign.vehicle.polynomials import Number, Polynomial, plus, scale_variable, shift, times, trim
+
+TIME_UNIT = 100.0  # rad/s; in this unit a bogie's coefficients span ten powers of ten instead of 46
+
+
+def _remainder(upper: Sequence[Number], lower: Sequence[Number]) -> list[Number]:
+    """Return quotient * lower - upper, where the linear quotient cancels the two highest powers (highest first)."""
+    alpha = _divide(upper[0], lower[0])
+    beta = _divide(plus(upper[1], times(-1, times(alpha, lower[1] if len(lower) > 1 else 0))), lower[0])
+    out = []
+    for k in range(2, len(upper)):
+        linear = times(alpha, lower[k]) if k < len(lower) else 0
+        out.append(plus(plus(linear, times(beta, lower[k - 1])), times(-1, upper[k])))
+    return out
+
+
+def _divide(x: Number, y: Number) -> Number:
+    if type(x) is int and x == 0:
+        return 0
+    try:
+        return x / y
+    except ZeroDivisionError:  # plain floats and rationals raise where arrays give NaN or infinity
+        return math.nan
+
+
+def _rows(upper: list[Number], lower: list[Number]) -> list[list[Number]]:
+    """Return the Sturm chain that begins with two polynomials (highest power first)."""
+    rows = [upper]
+    while lower:
+        rows.append(lower)
+        upper, lower = lower, _remainder(upper, lower)
+    return rows
+
+
+def routh_column(p: Polynomial) -> list[Number]:
+    """Return the first column of Routh's array of a real polynomial.
+
+    Parameters
+    ----------
+    p : tuple
+        Coefficients, lowest power first.
+
+    Returns
+    -------
+    list
+        As many entries as p has. All roots have negative real parts exactly if all entries have the same sign.
+
+    Examples
+    --------
+    >>> routh_column((6.0, 11.0, 6.0, 1.0))
+    [1.0, 6.0, 10.0, 6.0]
+    """
+    return [row[0] for row in routh_rows(p)]
+
+
+def routh_rows(p: Polynomial) -> list[list[Number]]:
+    """Return Routh's array of a real polynomial, lowest power first, with its zeros.
+
+    Each entry of a row stands above the entries it is multiplied with: the first one of row k + 2 is a multiple of the
+    third one of row k + 1, minus the third one of row k.
+    """
+    down = p[::-1]
+    # p(j w) / j^n = U(w) - j V(w); only every second coefficient of U and of V is there.
+    signed = [times((1, 1, -1, -1)[k % 4], a) for k, a in enumerate(down)]
+    upper = [a if k % 2 == 0 else 0 for k, a in enumerate(signed)]
+    lower = [a if k % 2 == 1 else 0 for k, a in enumerate(signed)][1:]
+    return _rows(upper, lower)
+
+
+def sector_column(p: Polynomial, zeta: Number, functions: Any = np) -> list[Number]:
+    """Return a chain that is positive exactly if every root of p has a damping ratio above zeta.
+
+    The polynomial is turned by asin(zeta), which brings the sector's edge onto the imaginary axis; since roots come in
+    conjugate pairs one edge suffices. The chain is Routh's for complex coefficients.
+
+    Parameters
+    ----------
+    p : tuple
+        Real coefficients, lowest power first, the last one positive.
+    zeta : float or array
+        Damping ratio, 0 <= zeta < 1 (a sector wider than the half-plane has no edge of this kind).
+    functions : module
+        Where `arcsin`, `cos` and `sin` of zeta are: `numpy`, or `casadi` for SX.
+    """
+    # Coefficient of z^(n-k) in p(z e^(j asin zeta)), divided by the turn of z^n and by j^k.
+    angle = functions.arcsin(zeta) + math.pi / 2
+    upper = [times(functions.cos(k * angle), a) for k, a in enumerate(p[::-1])]
+    lower = [times(functions.sin(k * angle), a) for k, a in enumerate(p[::-1])]
+    return [row[0] for row in _rows(upper, lower[1:])]
+
+
+def is_stable(column: Sequence[Number]) -> NDArray[np.bool_]:
+    """Return where all entries of a Routh column of numbers or arrays are positive."""
+    verdict = np.asarray(column[0] > 0)
+    for entry in column[1:]:
+        verdict = verdict & (entry > 0)
+    return verdict
+
+
+def decays_faster(p: Polynomial, sigma: Number) -> NDArray[np.bool_]:
+    """Return where all roots of p (numbers or arrays) have a decay rate above sigma [1/s]."""
+    with np.errstate(all="ignore"):
+        return is_stable(routh_column(shift(_scaled(p), -sigma / TIME_UNIT)))
+
+
+def damped_more(p: Polynomial, zeta: Number) -> NDArray[np.bool_]:
+    """Return where all roots of p (numbers or arrays) have a damping ratio above zeta."""
+    with np.errstate(all="ignore"):
+        return is_stable(sector_column(_scaled(p), zeta))
+
+
+def count_unstable(p: Polynomial) -> int:
+    """Return the number of roots not in the left half-plane: sign changes of Routh's column, and roots at zero.
+
+    -1 if the scheme breaks down.
+    """
+    zeros = next((k for k, a in enumerate(p) if a != 0), 0)
+    p = p[zeros:]
+    with np.errstate(all="ignore"):
+        column = np.array(routh_column(_scaled(p)), dtype=float)
+    if not np.all(np.isfinite(column)) or np.any(column == 0):
+        return -1
+    return zeros + int(np.sum(np.sign(column[:-1]) != np.sign(column[1:])))
+
+
+def _scaled(p: Polynomial) -> Polynomial:
+    """Return p in s / (100 rad/s), without highest coefficients that are zero everywhere."""
+    return scale_variable(trim(p, lambda a: bool(np.all(a == 0))), TIME_UNIT)

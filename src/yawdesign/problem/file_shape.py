@@ -1,0 +1,172 @@
+"""The shape of a problem file as pydantic models, generated from the parameter table.
+
+Pydantic finds what is missing, unknown or of the wrong shape; the values themselves are checked by the table, in the
+same functions that the dataclasses use. Nothing of pydantic leaves this room.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Mapping
+from functools import cache, partial
+from typing import Annotated, Any
+
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    PlainValidator,
+    Tag,
+    ValidationInfo,
+    WithJsonSchema,
+)
+from pydantic import create_model as make
+
+from .diagnostics import ProblemError
+from .parameters import KINDS, PARAMETERS, parameter_keys
+from .patterns import unit_pattern
+from .problem import EQUATIONS
+from .running import CURVE, LOADS, SPEED, STEPS
+from .table import Parameter, as_choice, as_count, as_text, check_end
+from .units import kind_of
+from .variables import OBJECTIVES
+
+PRESETS = ("table1",)
+_STRICT = ConfigDict(extra="forbid")
+
+
+def _leaf(check: Callable[..., Any], schema: dict[str, Any]) -> Any:
+    return Annotated[Any, PlainValidator(check), WithJsonSchema(schema)]
+
+
+# A number with grouped digits and perhaps a power of ten; the unit is looked at by `check`.
+_TENS = r"([eE][-+]?\d+|\s*[×·⋅*x]\s*10((\^|\*\*)[-+\u2212]?\d+|[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))?"
+_QUANTITY = r"^\s*[-+]?(\d[\d _\u2009\u202f\u00a0]*(\.[\d _\u2009\u202f\u00a0]*)?|\.\d+){tens}\s*{unit}$"
+
+
+def _quantity_schema(row: Parameter) -> dict[str, Any]:
+    unit = row.unit.strip("-")
+    si = f"; a number alone is in {row.si}" if unit else ""
+    hover = f"{row.meaning[:1].upper()}{row.meaning[1:]}, ${row.symbol}$ [{row.unit}]{si}. "
+    hover += f"Accepted: {row.range_text(row.hard)}. Usual: {row.range_text(row.usual, row.unit)}."
+    number = {"type": "number", "minimum": row.hard[0], "maximum": row.hard[1]}
+    pattern = _QUANTITY.format(tens=_TENS, unit=unit_pattern(row.unit))
+    text = {"type": "string", "pattern": pattern, "description": kind_of(row.unit)}
+    return {"description": hover, "anyOf": [number, text], "examples": [row.example]}
+
+
+def quantity(row: Parameter) -> Any:
+    """Return the type of a value of the table."""
+    return _leaf(row.check, _quantity_schema(row))
+
+
+def _upper_end(row: Parameter) -> Any:
+    def check(value: object, info: ValidationInfo) -> object:
+        return check_end(value, row, info.data.get("min"))
+
+    return _leaf(check, _quantity_schema(row))
+
+
+def _choice(choices: Collection[str], meaning: str, default: str | None = None) -> Any:
+    schema: dict[str, Any] = {"enum": list(choices), "description": meaning}
+    if default is not None:
+        schema["default"] = default
+    return _leaf(partial(as_choice, choices=choices), schema)
+
+
+def _model(name: str, meaning: str, entries: Mapping[str, tuple[Any, Any]]) -> type[BaseModel]:
+    return make(name, __config__=_STRICT, __doc__=meaning, **entries)  # type: ignore[call-overload, no-any-return]
+
+
+def _bogie(kind: str, *, complete: bool) -> type[BaseModel]:
+    def default(row: Parameter) -> Any:
+        return ... if complete and not row.optional else None
+
+    rows = {key: (quantity(row), default(row)) for key, row in PARAMETERS.items() if key in parameter_keys(kind)}
+    kinds = _choice(KINDS, "With or without motors hung on the frame.", "power")
+    base = _choice(PRESETS, "Preset whose values are used for all keys that are not given.")
+    return _model(
+        "Bogie", "The bogie, with the symbols of Table I.", {"kind": (kinds, "power"), "base": (base, None)} | rows
+    )
+
+
+def _curve() -> type[BaseModel]:
+    rows = {key: (quantity(row), None if key == "limit" else ...) for key, row in CURVE.items()}
+    load = _choice(LOADS, "Load Q in T/(4 Q a): the axle load W as in the paper, or the wheel load W/2.", "axle")
+    return _model("Curve", "The tightest curve; it limits the damping from above.", {**rows, "load": (load, None)})
+
+
+def _bounds(row: Parameter) -> type[BaseModel]:
+    return _model(
+        f"Bounds_{row.key}",
+        f"Bounds of {row.key}: {row.meaning}.",
+        {"min": (quantity(row), ...), "max": (_upper_end(row), ...)},
+    )
+
+
+def _speed_range() -> type[BaseModel]:
+    schema = {"type": "integer", "minimum": STEPS[0], "maximum": STEPS[1], "default": 11}
+    steps = _leaf(partial(as_count, low=STEPS[0], high=STEPS[1]), schema | {"description": "Number of speeds."})
+    entries = {"min": (quantity(SPEED), ...), "max": (_upper_end(SPEED), ...), "steps": (steps, None)}
+    return _model("SpeedRange", "A range of running speeds.", entries)
+
+
+def _speed() -> Any:
+    def tag(value: object) -> str:
+        return "<range>" if isinstance(value, dict) else "<value>"
+
+    one, several = Annotated[quantity(SPEED), Tag("<value>")], Annotated[_speed_range(), Tag("<range>")]
+    return Annotated[one | several, Discriminator(tag)]
+
+
+def _not_empty(value: object) -> object:
+    if value == {}:
+        raise ProblemError("names no parameter: remove the key to change C_s, K_m and C_m")
+    return value
+
+
+def _design(kind: str) -> type[BaseModel]:
+    rows: Iterable[Parameter] = (PARAMETERS[key] for key in parameter_keys(kind))
+    variables = _model(
+        "Variables",
+        "Parameters that may be changed, with their bounds; without this key: C_s, K_m and C_m.",
+        {row.key: (_bounds(row), None) for row in rows},
+    )
+    some: Any = Annotated[variables, BeforeValidator(_not_empty)]
+    objective = _choice(OBJECTIVES, "What is to be as large as possible.", "decay_rate")
+    return _model(
+        "Design",
+        "What may be changed, and what is to be best.",
+        {"objective": (objective, None), "variables": (some, None)},
+    )
+
+
+@cache
+def problem_model(kind: str, *, complete: bool = True) -> type[BaseModel]:
+    """Return the model of a problem file.
+
+    Parameters
+    ----------
+    kind : {"power", "trailer"}
+        Whether there are motors.
+    complete : bool
+        Whether all parameters of the bogie are required; they are not where the preset is not known.
+    """
+    text = _leaf(as_text, {"type": "string", "description": "Any text; it heads tables and plots."})
+    equations = _choice(
+        EQUATIONS,
+        "Whether the motors' yaw reaction acts on the frame, or is left out as the paper has it.",
+        "reciprocal",
+    )
+    return _model(
+        "Problem",
+        "A yawdesign problem.",
+        {
+            "title": (text, None),
+            "equations": (equations, None),
+            "bogie": (_bogie(kind, complete=complete), ...),
+            "speed": (_speed(), ...),
+            "curve": (_curve(), None),
+            "design": (_design(kind), None),
+        },
+    )

@@ -1,0 +1,179 @@
+"""Eigenvalues with their right and left eigenvectors, found in each independent part of the motion by itself.
+
+Motions that nothing couples may have roots that cross exactly. So the matrix is first taken apart along its own zeros:
+the strongly connected parts of its graph have their own eigenvalues, and a root can never be taken for one of another
+part.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+import scipy.linalg as sl
+from numpy.typing import NDArray
+from scipy.sparse.csgraph import breadth_first_order, connected_components
+
+from yawdesign.hunting.eigenvalues import Complex, Float
+from yawdesign.vehicle.assembly import StateSpace, folded
+from yawdesign.vehicle.catalogue import Parameters, bogie
+from yawdesign.vehicle.polynomials import Number
+
+Index = NDArray[np.intp]
+ROUNDING = 1e-13  # relative to the size of the matrix
+
+
+@dataclass(frozen=True)
+class Motion:
+    """State matrix of a bogie in half sums and half differences of both ends.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (n, n)
+        Of the states: coordinates, their velocities, dashpot strokes.
+    coordinates, strokes : tuple of str
+        Names of the coordinates, and of the links whose dashpot strokes are the last states.
+    """
+
+    matrix: Float
+    coordinates: tuple[str, ...]
+    strokes: tuple[str, ...]
+
+    @property
+    def states(self) -> tuple[str, ...]:
+        """What each state belongs to; a coordinate appears twice, for itself and for its velocity."""
+        return (*self.coordinates, *self.coordinates, *self.strokes)
+
+
+def motion(p: Parameters, C_s: Number, *, kind: str, equations: str) -> Motion:
+    """Return the state matrix of a bogie, all numbers floats. Arguments as in `stability.modes.state_matrix`."""
+    system = StateSpace(folded(bogie({**p, "C_s": C_s}, kind=kind, equations=equations)))
+    matrix = system.fill(np.zeros((system.size, system.size)), float)
+    return Motion(np.asarray(matrix), system.coordinates, tuple(link.name for link, _ in system.strokes))
+
+
+def parts(pattern: NDArray[np.bool_]) -> tuple[Index, ...]:
+    """Return the states of each strongly connected part of a matrix, given where it has entries."""
+    count, label = connected_components(pattern, directed=True, connection="strong")
+    found = [np.flatnonzero(label == k) for k in range(count)]
+    return tuple(sorted(found, key=lambda states: int(states[0])))
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Eigenvalues of one part of a motion: the real ones falling, those above the real axis, then their conjugates.
+
+    Parameters
+    ----------
+    s : ndarray, shape (n,)
+        Eigenvalues [1/s].
+    right, left : ndarray, shape (n, n)
+        Eigenvectors in the columns, ``left[:, k] @ right[:, k] == 1``.
+    real : int
+        Number of real eigenvalues.
+    """
+
+    s: Complex
+    right: Complex
+    left: Complex
+    real: int
+
+    @property
+    def twin(self) -> Index:
+        """For each eigenvalue the place of its conjugate."""
+        pairs = (len(self.s) - self.real) // 2
+        above = np.arange(self.real, self.real + pairs)
+        return np.concatenate([np.arange(self.real), above + pairs, above])
+
+    def velocity(self, change: Float) -> Complex:
+        """Return by how much each eigenvalue moves, to first order, when the matrix changes by `change`."""
+        return np.asarray(np.einsum("ik,ij,jk->k", self.left, change, self.right))
+
+
+def spectrum(matrix: Float) -> Spectrum:
+    """Return the spectrum of a real matrix."""
+    s, w, v = cast(tuple[Complex, Complex, Complex], sl.eig(matrix, left=True, right=True))
+    _set_zeros(matrix, s, w, v)
+    real = np.flatnonzero(s.imag == 0)
+    real = real[np.argsort(-s[real].real, kind="stable")]
+    above = np.flatnonzero(s.imag > 0)
+    above = above[np.lexsort((s[above].real, s[above].imag))]
+    s = np.concatenate([s[real], s[above], s[above].conj()])
+    v = np.hstack([v[:, real], v[:, above], v[:, above].conj()])
+    w = np.hstack([w[:, real], w[:, above], w[:, above].conj()]).conj()
+    scale = np.sum(w * v, axis=0)
+    # Where two roots coincide the product vanishes; the vectors then say nothing, but they stay finite.
+    return Spectrum(s, v, np.asarray(w / np.where(scale == 0, 1, scale), dtype=complex), len(real))
+
+
+def rounding(matrix: Float) -> float:
+    """Return the size of the error that an eigenvalue of a matrix must be expected to have [1/s]."""
+    return ROUNDING * float(np.linalg.norm(sl.matrix_balance(matrix, permute=False)[0]))
+
+
+def _set_zeros(matrix: Float, s: Complex, w: Complex, v: Complex) -> None:
+    """Make roots that are zero within rounding zero, with eigenvectors that belong together.
+
+    Bodies that no spring holds have such roots at every value of a parameter, and several of them are one to the last
+    digit: without this it were chance which is which, and whether they are a pair.
+    """
+    zero = np.flatnonzero(np.abs(s) <= rounding(matrix))
+    if not zero.size:
+        return
+    s[zero] = 0
+    balanced, (scale, _) = sl.matrix_balance(matrix, permute=False, separate=True)
+    left, size, right = np.linalg.svd(balanced)
+    if zero.size > 1 and size[-zero.size] <= ROUNDING * size[0]:
+        right, left = right[-zero.size :].T, left[:, -zero.size :]
+        v[:, zero], w[:, zero] = scale[:, None] * right, np.linalg.solve(right.T @ left, (left / scale[:, None]).T).T
+
+
+def whole_vector(matrix: Float, states: Index, s: complex, vector: Complex) -> Complex:
+    """Return the eigenvector of the whole matrix, given that of the part it belongs to.
+
+    A part may drive others that do not act back (the motors' yaw in the model as printed). Where these have the same
+    root (a body that nothing holds: twice zero), only the driven part moves.
+    """
+    out = np.zeros(len(matrix), dtype=complex)
+    out[states] = vector
+    driven = _driven_by(matrix != 0, states)
+    if driven.size:
+        force = matrix[np.ix_(driven, states)] @ vector
+        free = s * np.eye(driven.size) - matrix[np.ix_(driven, driven)]
+        try:
+            out[driven] = np.linalg.solve(free, force)
+        except np.linalg.LinAlgError:
+            out[states], out[driven] = 0, np.linalg.svd(free)[2][-1].conj()
+    return out
+
+
+def _driven_by(pattern: NDArray[np.bool_], states: Index) -> Index:
+    """Return the states outside a part that move because the part moves."""
+    order = breadth_first_order(pattern.T, int(states[0]), return_predecessors=False)
+    return np.asarray(np.setdiff1d(order, states), dtype=np.intp)
+
+
+def unfold(names: Sequence[str], values: Complex, *, forces: bool = False) -> dict[str, complex]:
+    """Return what belongs to each end, given half the sum (a name ending in +) and half the difference (in -).
+
+    Parameters
+    ----------
+    names : sequence of str
+        One for each value.
+    values : ndarray
+        Displacements.
+    forces : bool
+        The values are not displacements but what multiplies them (a left eigenvector): half of each then belongs to
+        either end.
+    """
+    found = dict(zip(names, values, strict=True))
+    out: dict[str, complex] = {}
+    half = 0.5 if forces else 1.0
+    for name, value in found.items():
+        if name.endswith("+"):
+            stem = name[:-1]
+            other = found[stem + "-"]
+            out[stem + "1"], out[stem + "2"] = complex(half * (value + other)), complex(half * (value - other))
+        elif not name.endswith("-"):
+            out[name] = complex(value)
+    return out

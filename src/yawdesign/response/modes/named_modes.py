@@ -1,0 +1,203 @@
+"""The modes of a bogie: frequency, damping, shape, and what takes part in each."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg as sl
+
+from yawdesign.hunting.eigenvalues import Complex, Float, backward_error
+from yawdesign.hunting.verdict import EXACT, Mode, given_damping, stability
+from yawdesign.problem import Problem
+from yawdesign.problem.result import Result
+from yawdesign.response.modes.eigenvectors import Motion, unfold, whole_vector
+from yawdesign.response.modes.hunting_mode import hunting_root
+from yawdesign.response.modes.names import NamedRoot, named_roots
+from yawdesign.vehicle.catalogue import Parameters
+from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.polynomials import Polynomial
+
+
+@dataclass(frozen=True)
+class NamedMode(Mode):
+    """A mode with a name: one real root or one pair of conjugate roots.
+
+    Parameters
+    ----------
+    name : str
+        What moves in it, such as ``"motor lateral 1"``; no other mode of the bogie has it.
+    eigenvalue : complex
+        The root above the real axis, or on it [1/s].
+    shape : mapping coordinate -> complex
+        Displacements [m] and angles [rad], scaled so that the largest of all displacements and of all angles times the
+        half wheelbase is 1 and leads with phase zero. The motion is the real part of ``shape * exp(eigenvalue t)``.
+    participation : mapping str -> float
+        Share of each coordinate (with its velocity) and of each damper's stroke in the mode: left times right
+        eigenvector. The shares sum to 1 and do not depend on units.
+    conicity : float
+        How much the root depends on the conicity, |d ln eigenvalue / d ln lambda|: 1/2 for a wheelset that rolls
+        freely, 0 for what knows nothing of the wheels.
+    residual : float
+        The larger of two backward errors: of the characteristic polynomial at the eigenvalue, and of the eigenvector.
+    """
+
+    name: str
+    eigenvalue: complex
+    shape: Mapping[str, complex]
+    participation: Mapping[str, float]
+    conicity: float
+    residual: float
+
+
+@dataclass(frozen=True, repr=False)
+class Modes(Result):
+    """All modes of a bogie at one speed.
+
+    Parameters
+    ----------
+    modes : tuple of NamedMode
+        The least damped first (by decay rate).
+    hunting : str or None
+        Name of the one that is the hunting of the bogie; None if nothing that oscillates depends on the conicity.
+    stable : bool
+        Whether all of them decay, as `yawdesign.stability` says it.
+    C_s, speed : float
+        Damping of the pair of yaw dampers [N s/m] and speed [m/s].
+    equations : str
+        ``"reciprocal"`` or ``"as-printed"``.
+    parameters : mapping
+        The bogie in SI units.
+    checked : bool
+        True if the stability was checked, and every eigenvalue is a root of the characteristic polynomial.
+    """
+
+    modes: tuple[NamedMode, ...]
+    hunting: str | None
+    stable: bool
+    C_s: float
+    speed: float
+    equations: str
+    parameters: Mapping[str, float]
+    checked: bool
+
+
+def modes(problem: Problem) -> Modes:
+    """Return the modes of a problem's bogie with the yaw damping written in it.
+
+    Parameters
+    ----------
+    problem : Problem
+        With a value of ``C_s``. Of a range of speeds the one of least decay rate is taken.
+
+    Raises
+    ------
+    ProblemError
+        If the problem has no ``C_s``.
+
+    Examples
+    --------
+    >>> import yawdesign as yd
+    >>> first = yd.modes(yd.table1()).modes[0]
+    >>> first.name, round(first.frequency, 4), round(first.damping_ratio, 5)
+    ('wheelset hunting 1', 2.5535, 0.07113)
+    """
+    verdict = stability(problem)
+    p, model = parameters_at(problem, verdict.speed), problem.model
+    found = modes_at(p, given_damping(problem), **model)
+    hunting = hunting_mode(found)
+    exact = all(mode.residual < EXACT for mode in found)
+    bogie = {name: value for name, value in p.items() if name != "v"}
+    return Modes(
+        modes=found,
+        hunting=None if hunting is None else hunting.name,
+        stable=verdict.stable,
+        C_s=verdict.C_s,
+        speed=verdict.speed,
+        equations=problem.equations,
+        parameters=bogie,
+        checked=verdict.checked and exact,
+    )
+
+
+def parameters_at(problem: Problem, v: float) -> dict[str, float]:
+    """Return the parameters of a problem's bogie at a speed, as floats."""
+    return {**{name: float(value) for name, value in problem.bogie.parameters().items()}, "v": float(v)}
+
+
+def modes_at(p: Parameters, C_s: float, *, kind: str, equations: str) -> tuple[NamedMode, ...]:
+    """Return the modes at given parameters, the least decaying first.
+
+    Parameters
+    ----------
+    p : mapping
+        Symbols of Table I in SI units and ``v``, floats.
+    C_s : float
+        Damping of the pair of yaw dampers [N s/m].
+    kind, equations : str
+        As in `yawdesign.vehicle.catalogue.bogie`.
+    """
+    system, roots = named_roots(p, C_s, kind=kind, equations=equations)
+    polynomial = characteristic(p, kind=kind, equations=equations).full(C_s)
+    made = [_mode(root, system, float(p["a"]), polynomial) for root in roots]
+    return tuple(sorted(made, key=lambda mode: (mode.decay_rate, mode.frequency)))
+
+
+def hunting_mode(modes: Sequence[NamedMode]) -> NamedMode | None:
+    """Return the hunting of a bogie among its modes; None if nothing that oscillates depends on the conicity.
+
+    Parameters
+    ----------
+    modes : sequence of NamedMode
+        All modes, as `modes_at` returns them.
+    """
+    place = hunting_root(np.array([mode.eigenvalue for mode in modes]), np.array([mode.conicity for mode in modes]))
+    return None if place is None else modes[place]
+
+
+def _mode(root: NamedRoot, system: Motion, arm: float, polynomial: Polynomial) -> NamedMode:
+    s = root.s
+    vector = whole_vector(system.matrix, root.states, s, root.part.right[:, root.place])
+    left = np.zeros(len(system.matrix), dtype=complex)
+    left[root.states] = root.part.left[:, root.place]
+    return NamedMode(
+        frequency=s.imag / (2 * np.pi),
+        damping_ratio=-s.real / abs(s) if s else 0.0,
+        decay_rate=-s.real,
+        name=root.name,
+        eigenvalue=s,
+        shape=_shape(system, vector, arm),
+        participation=_participation(system, left, vector),
+        conicity=root.conicity,
+        residual=max(float(backward_error(polynomial, np.array(s))), _eigenvector_error(system.matrix, s, vector)),
+    )
+
+
+def _shape(system: Motion, vector: Complex, arm: float) -> dict[str, complex]:
+    shape = unfold(system.coordinates, vector[: len(system.coordinates)])
+    weight = {x: arm if x.startswith("phi") else 1.0 for x in shape}
+    largest = max(shape, key=lambda x: weight[x] * abs(shape[x]))
+    unit = weight[largest] * shape[largest] or 1.0
+    return {x: value / unit for x, value in shape.items()}
+
+
+def _participation(system: Motion, left: Complex, right: Complex) -> dict[str, float]:
+    """Return the shares of the coordinates of each end and of each damper's stroke."""
+    n = len(system.coordinates)
+    total: dict[str, complex] = {}
+    for names, place in (
+        (system.coordinates, slice(0, n)),
+        (system.coordinates, slice(n, 2 * n)),
+        (system.strokes, slice(2 * n, None)),
+    ):
+        displacement, force = unfold(names, right[place]), unfold(names, left[place], forces=True)
+        for x, value in displacement.items():
+            total[x] = total.get(x, 0) + value * force[x]
+    size = sum(abs(value) for value in total.values()) or 1.0
+    return {x: abs(value) / size for x, value in total.items()}
+
+
+def _eigenvector_error(matrix: Float, s: complex, vector: Complex) -> float:
+    """Return the size of A x - s x relative to that of A and x, in units that make A's rows and columns alike."""
+    balanced, (scale, _) = sl.matrix_balance(matrix, permute=False, separate=True)
+    x = vector / scale
+    return float(np.linalg.norm(balanced @ x - s * x) / (np.linalg.norm(balanced) * np.linalg.norm(x)))

@@ -1,0 +1,196 @@
+"""Answers to a harmonic track, exact: by the state matrix, and again by the polynomial matrix."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from yawdesign.problem import Problem, ProblemError
+from yawdesign.problem.diagnostics import Mistakes
+from yawdesign.problem.result import Result
+from yawdesign.problem.running import SPEED
+from yawdesign.problem.table import Parameter, as_choice, as_several
+from yawdesign.response.run.system import INPUTS, Complex, Float, System, system_at
+from yawdesign.vehicle.assembly import polynomial_matrix
+from yawdesign.vehicle.elements import WheelRailContact
+from yawdesign.vehicle.polynomials import evaluate
+
+WAVELENGTH = Parameter(
+    key="wavelength",
+    symbol="L",
+    unit="m",
+    meaning="wavelength of the track",
+    hard=(1e-3, 1e9),
+    usual=(1.0, 200.0),
+    source="20",
+)
+MOST_WAVELENGTHS = 100_000  # about 1 GB
+BLOCK = 1000  # frequencies solved at once
+EXACT = 1e-9  # largest relative difference of the two ways
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class FrequencyResponse(Result):
+    """Complex amplitude of every coordinate on a harmonic track of amplitude 1 (1 m, or 1 rad of cross-level).
+
+    The time factor is exp(+j w t), the phase is zero where the front wheelset stands, and the rear wheelset sees the
+    track 2a/v later. Of an unstable bogie this is the motion that it would have if it did not grow.
+
+    Parameters
+    ----------
+    wavelength, frequency : float or ndarray
+        Wavelength [m] and frequency v / wavelength [Hz].
+    input : str
+        "alignment" or "cross_level".
+    speed, C_s : float
+        Speed [m/s] and damping of the pair of yaw dampers [N s/m].
+    stable : bool
+        Whether free motions die out.
+    y_b, phi_b, y_w1, phi_w1, y_w2, phi_w2 : complex or ndarray
+        Frame and wheelsets: lateral [m per unit], yaw [rad per unit].
+    y_m1, phi_m1, y_m2, phi_m2 : complex, ndarray or None
+        Motors; None in a trailer bogie.
+    checked : bool
+        True if state matrix and polynomial matrix give the same to 1e-9.
+    """
+
+    wavelength: Any
+    frequency: Any
+    input: str
+    speed: float
+    C_s: float
+    stable: bool
+    checked: bool
+    y_b: Any
+    phi_b: Any
+    y_w1: Any
+    phi_w1: Any
+    y_w2: Any
+    phi_w2: Any
+    y_m1: Any = None
+    phi_m1: Any = None
+    y_m2: Any = None
+    phi_m2: Any = None
+
+
+def frequency_response(
+    problem: Problem,
+    wavelength: Any = 20.0,
+    input: str = "alignment",  # noqa: A002 - the word of the field
+    *,
+    speed: Any = None,
+) -> FrequencyResponse:
+    """Return how the bogie answers a harmonic track.
+
+    Parameters
+    ----------
+    problem : Problem
+        With a value of ``C_s``.
+    wavelength : float, str or sequence of them
+        Wavelength of the track [m] or text with a unit; an array of shape (n,) gives answers of shape (n,).
+    input : {"alignment", "cross_level"}
+        What varies along the track: its centre line [m] or its cross-level angle [rad]. Either acts through gravity and
+        conicity as in (W lambda/b)(y_w - y_a), 2 f_22 (b lambda/r)(y_w - y_a) and W theta.
+    speed : float or str, optional
+        Speed [m/s] or text with a unit; the problem's own if it has a single one.
+
+    Returns
+    -------
+    FrequencyResponse
+
+    Raises
+    ------
+    ProblemError
+        If a value is not accepted, ``C_s`` is missing, or the problem has a range of speeds and none is given.
+
+    Examples
+    --------
+    >>> import yawdesign as yd
+    >>> problem = yd.table1(equations="as-printed").replace(C_s="1 046 770 N s/m", speed="250 km/h")
+    >>> y_b = yd.frequency_response(problem, wavelength="20 m").y_b
+    >>> round(y_b.real, 6), round(y_b.imag, 6)
+    (-1.069824, -0.021305)
+    """
+    mistakes = Mistakes()
+    with mistakes.under("wavelength"):
+        lengths = _lengths(wavelength)
+    with mistakes.under("input"):
+        as_choice(input, INPUTS)
+    with mistakes.under("speed"):
+        v = one_speed(problem, speed)
+    mistakes.report()
+    system = system_at(problem, v)
+    omega = 2 * np.pi * v / lengths
+    u = system.harmonic_input(omega, input)
+    x = states(system, omega, u)[:, : len(system.coordinates)]
+    other = _by_polynomials(system, omega, u)
+    scalar = isinstance(wavelength, str) or np.ndim(wavelength) == 0
+
+    def shaped(values: Any) -> Any:
+        return values[0].item() if scalar else values
+
+    return FrequencyResponse(
+        wavelength=shaped(lengths),
+        frequency=shaped(v / lengths),
+        input=input,
+        speed=v,
+        C_s=system.C_s,
+        stable=bool(system.eigenvalues.real.max() < 0),
+        checked=_same(x, other),
+        **{name: shaped(x[:, k]) for k, name in enumerate(system.coordinates)},
+    )
+
+
+def _lengths(wavelength: Any) -> Float:
+    values = as_several(wavelength)
+    if not values:
+        raise ProblemError("no wavelength is given: expected one or a list of them")
+    if len(values) > MOST_WAVELENGTHS:
+        raise ProblemError(f"{len(values)} values are too many: at most {MOST_WAVELENGTHS} at a time")
+    return np.array([float(WAVELENGTH.check(x)) for x in values])
+
+
+def one_speed(problem: Problem, speed: Any = None) -> float:
+    """Return a speed given as number or text [m/s], or the single one of the problem."""
+    if speed is not None:
+        return float(SPEED.accept(speed))
+    if len(problem.speeds) > 1:
+        raise ProblemError("is missing: the problem has a range of speeds, say which one, such as '300 km/h'")
+    return float(problem.speeds[0])
+
+
+def states(system: System, omega: Float, u: Complex) -> Complex:
+    """Return the states of the harmonic motion under inputs u exp(j omega t), shape (len(omega), n)."""
+    unit = np.eye(len(system.A))
+    blocks = []
+    for k in range(0, len(omega), BLOCK):
+        s = 1j * omega[k : k + BLOCK, None, None]
+        force = u[k : k + BLOCK] @ system.B.T
+        blocks.append(np.linalg.solve(s * unit - system.A, force[..., None])[..., 0])
+    return np.concatenate(blocks) if blocks else np.zeros((0, len(unit)), dtype=complex)
+
+
+def outputs(system: System, omega: Float, u: Complex) -> Complex:
+    """Return all outputs of the harmonic motion under inputs u exp(j omega t), shape (len(omega), outputs)."""
+    return np.asarray(states(system, omega, u) @ system.C.T + u @ system.D.T)
+
+
+def _by_polynomials(system: System, omega: Float, u: Complex) -> Complex:
+    entries = polynomial_matrix(system.elements)
+    rows = {node: k for k, node in enumerate(dict.fromkeys(row for row, _ in entries))}
+    matrix = np.zeros((len(omega), len(rows), len(rows)), dtype=complex)
+    for (row, column), p in entries.items():
+        matrix[:, rows[row], rows[column]] = evaluate(p, 1j * omega)
+    force = np.zeros((len(omega), len(rows)), dtype=complex)
+    contacts = [e for e in system.elements if isinstance(e, WheelRailContact)]
+    names = [name for e in contacts for name in (e.alignment, e.cross_level)]
+    for contact in contacts:
+        for (row, name), value in contact.inputs().items():
+            force[:, rows[row]] += value * u[:, names.index(name)]
+    found = np.linalg.solve(matrix, force[..., None])[..., 0]
+    return np.asarray(found[:, [rows[x] for x in system.coordinates]])
+
+
+def _same(x: Complex, y: Complex) -> bool:
+    size = np.max(np.abs(x), axis=1, keepdims=True)
+    return bool(np.all(np.abs(x - y) <= EXACT * np.maximum(size, np.abs(x)) + np.finfo(float).tiny))

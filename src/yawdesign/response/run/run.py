@@ -1,0 +1,157 @@
+"""What is read from a run: sizes of the responses, growth or decay, and whether amplitudes settle."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import log, pi
+
+import numpy as np
+
+from yawdesign.hunting.eigenvalues import Complex
+from yawdesign.response.modes.hunting_mode import hunting_root
+from yawdesign.response.modes.names import named_roots
+from yawdesign.response.run.fitted_decay import fitted_rate
+from yawdesign.response.run.frequency import states
+from yawdesign.response.run.stationary import stationary_rms
+from yawdesign.response.run.system import Float, System
+from yawdesign.response.run.time_history import History, Motion, Plan, move
+from yawdesign.response.track.named_tracks import AnyTrack
+from yawdesign.response.track.tracks import Clock, RandomTrack
+
+AGREE = 0.01  # relative difference of two ways to the same number that is still called the same
+ROUNDING = 1e-9  # of the largest displacement: less is none
+NEUTRAL = 1e-2  # [1/s]: growth rates are compared relative to at least this
+FASTEST_DECAY = 50.0  # logarithm by which a motion may change within one window of the fit
+
+
+@dataclass(frozen=True)
+class Run:
+    """What is read from one run.
+
+    Parameters
+    ----------
+    speed : float
+        Speed [m/s].
+    start : str
+        "stationary", "rest" or "offset"; an unstable bogie starts from rest where "stationary" was asked for.
+    duration, step : float
+        Length of the run and time step [s].
+    stable : bool
+        Whether all eigenvalues lie in the left half-plane.
+    spectral_abscissa : float
+        Largest real part of the eigenvalues [1/s].
+    fitted_rate : float
+        Growth rate fitted on a free motion, computed with the same time steps [1/s]; negative if it dies out.
+    frequency, damping_ratio : float or None
+        Of the hunting [Hz], [-]: the mode that `yawdesign.modes` calls so; None if nothing that oscillates depends on
+        the conicity.
+    settles : bool
+        Whether amplitudes settle: eigenvalues and fitted rate are both negative.
+    verdict : str
+        The same in words.
+    rms, peak : mapping of str to float
+        Root mean square and largest size of every response in this run, in SI.
+    rms_stationary : mapping of str to float, or None
+        Root mean square on an endless track of the same spectrum, by integration over the spectrum; None if the bogie
+        is unstable or the track not random.
+    checked : bool
+        True if fitted rate and eigenvalue agree to 1 %, and, in a stationary run over a random track, the root mean
+        square of y_b and phi_b and the sum over their frequency responses.
+    """
+
+    speed: float
+    start: str
+    duration: float
+    step: float
+    stable: bool
+    spectral_abscissa: float
+    fitted_rate: float
+    frequency: float | None
+    damping_ratio: float | None
+    settles: bool
+    verdict: str
+    rms: Mapping[str, float]
+    peak: Mapping[str, float]
+    rms_stationary: Mapping[str, float] | None
+    checked: bool
+
+
+def run(system: System, plan: Plan) -> tuple[Run, History]:
+    """Run a bogie over a track."""
+    s = system.eigenvalues
+    motion = move(system, plan, float(s.real.max()))
+    return _report(system, plan.track, motion, s), motion.history(system)
+
+
+def _report(system: System, track: AnyTrack, motion: Motion, s: Complex) -> Run:
+    abscissa, clock = float(s.real.max()), motion.clock
+    rate, _ = fitted_rate(motion.transition, clock.step, len(system.coordinates), _slowest(s))
+    rms = _named(system, np.sqrt(np.mean(motion.y**2, axis=0)))
+    frequency, ratio = hunting(system)
+    stable, settles = abscissa < 0, abscissa < 0 and rate < 0
+    as_expected = motion.start != "stationary" or _as_expected(system, track, clock, rms)
+    return Run(
+        speed=system.v,
+        start=motion.start,
+        duration=clock.step * clock.steps,
+        step=clock.step,
+        stable=stable,
+        spectral_abscissa=abscissa,
+        fitted_rate=rate,
+        frequency=frequency,
+        damping_ratio=ratio,
+        settles=settles,
+        verdict=_verdict(rate, settles, stable),
+        rms=rms,
+        peak=_named(system, np.max(np.abs(motion.y), axis=0)),
+        rms_stationary=stationary_rms(system, track) if stable and isinstance(track, RandomTrack) else None,
+        checked=_agree(rate, abscissa) and as_expected,
+    )
+
+
+def _named(system: System, values: Float) -> dict[str, float]:
+    return {name: float(values[k]) for name, k in system.outputs.items()}
+
+
+def _slowest(s: Complex) -> float:
+    """Return the frequency whose period is a window in which to measure amplitudes [Hz]."""
+    near = s[(s.imag > 0) & (s.real > s.real.max() - 10)]
+    slowest = float(near.imag.min() / (2 * np.pi)) if len(near) else 1.0
+    return max(slowest, float(abs(s.real.max())) / FASTEST_DECAY)
+
+
+def _agree(one: float, two: float) -> bool:
+    return abs(one - two) <= AGREE * max(abs(two), NEUTRAL)
+
+
+def _as_expected(system: System, track: AnyTrack, clock: Clock, rms: Mapping[str, float]) -> bool:
+    """Tell whether the run has the mean squares that frequency responses give for the lines of its track."""
+    if not isinstance(track, RandomTrack):
+        return True
+    lines = track.lines(system, clock.step * clock.steps)
+    x = states(system, lines.omega, lines.amplitudes)
+    expected = np.sqrt(np.sum(np.abs(x[:, : len(system.coordinates)]) ** 2, axis=0) / 2)
+    still = ROUNDING * float(expected.max())  # a frame that nothing couples to the wheelsets does not move
+    frame = {name: expected[system.coordinates.index(name)] for name in ("y_b", "phi_b")}
+    return all(abs(rms[name] - size) <= AGREE * size + still for name, size in frame.items())
+
+
+def hunting(system: System) -> tuple[float | None, float | None]:
+    """Return frequency [Hz] and damping ratio of the bogie's hunting, the same root as in `yawdesign.modes`."""
+    p = {name: float(value) for name, value in system.p.items()}
+    _, roots = named_roots(p, system.C_s, **system.model)
+    place = hunting_root(np.array([root.s for root in roots]), np.array([root.conicity for root in roots]))
+    if place is None:
+        return None, None
+    s = roots[place].s
+    return s.imag / (2 * pi), -s.real / abs(s)
+
+
+def _verdict(rate: float, settles: bool, stable: bool) -> str:
+    if settles:
+        return f"amplitudes settle: a free motion falls to a tenth in {log(10) / -rate:.3g} s"
+    if stable or rate <= 0:
+        return "on the edge of stability: the motion itself does not tell whether amplitudes settle"
+    return (
+        f"UNSTABLE: amplitudes do not settle, they grow tenfold in {log(10) / rate:.3g} s; root mean square and peak "
+        "belong to this length of run alone (flanges and saturating creep would limit them, a linear model has neither)"
+    )

@@ -1,0 +1,123 @@
+"""Stationary root mean squares on a random track, by integration over the spectrum."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from yawdesign.problem import Problem, ProblemError
+from yawdesign.problem.diagnostics import Mistakes
+from yawdesign.problem.result import Result
+from yawdesign.response.run.frequency import one_speed, outputs
+from yawdesign.response.run.system import INPUTS, Float, System, system_at
+from yawdesign.response.track.named_tracks import as_track
+from yawdesign.response.track.tracks import POINTS, WEIGHTS, RandomTrack
+
+GRID = 150  # cells over the band, before the modes are looked at more closely
+NEAR = 24  # cells on either side of a mode
+
+
+@dataclass(frozen=True, repr=False)
+class StationaryResponse(Result):
+    """Root mean square of every response on an endless random track.
+
+    Parameters
+    ----------
+    track : str
+        Name of the spectrum.
+    band : str
+        The part of the spectrum that is used.
+    speed, C_s : float
+        Speed [m/s] and damping of the pair of yaw dampers [N s/m].
+    rms : mapping of str to float
+        By response, in SI.
+    rms_of : mapping of str to mapping
+        The same from "alignment" alone and from "cross_level" alone; the squares add up.
+    method : str
+        How it was found.
+    """
+
+    track: str
+    band: str
+    speed: float
+    C_s: float
+    rms: Mapping[str, float]
+    rms_of: Mapping[str, Mapping[str, float]]
+    method: str
+
+
+def stationary_response(problem: Problem, track: Any = "german-low", *, speed: Any = None) -> StationaryResponse:
+    """Return the stationary root mean square of every response, by integrating |H|^2 S over the band.
+
+    Parameters
+    ----------
+    problem : Problem
+        With a value of ``C_s``.
+    track : str or RandomTrack
+        A spectrum, as in `simulate`; texts have the band from 0.3 to 40 Hz.
+    speed : float or str, optional
+        Speed [m/s] or text with a unit; the problem's own if it has a single one.
+
+    Raises
+    ------
+    ProblemError
+        If the bogie is unstable, so that nothing is stationary, or the track is not random.
+
+    Examples
+    --------
+    >>> import yawdesign as yd
+    >>> problem = yd.table1(equations="as-printed").replace(C_s="1 046 770 N s/m")
+    >>> round(1e3 * yd.stationary_response(problem).rms["y_b"], 2)  # mm
+    3.85
+    """
+    road = as_track(track)
+    if not isinstance(road, RandomTrack):
+        raise ProblemError(f"track: {road.name} is not random, a stationary root mean square needs a spectrum")
+    mistakes = Mistakes()
+    with mistakes.under("speed"):
+        v = one_speed(problem, speed)
+    mistakes.report()
+    system = system_at(problem, v)
+    if system.eigenvalues.real.max() >= 0:
+        raise ProblemError(f"the bogie is unstable at {3.6 * system.v:.4g} km/h: there is no stationary motion")
+    rms_of = {which: np.sqrt(_mean_squares(system, road, which)) for which in INPUTS}
+    total = np.sqrt(sum(rms**2 for rms in rms_of.values()))
+    return StationaryResponse(
+        track=road.name,
+        band=str(road.band),
+        speed=system.v,
+        C_s=system.C_s,
+        rms=_named(system, total),
+        rms_of={which: _named(system, rms) for which, rms in rms_of.items()},
+        method="integral over the spectrum",
+    )
+
+
+def _named(system: System, values: Any) -> dict[str, float]:
+    return {name: float(values[k]) for name, k in system.outputs.items()}
+
+
+def stationary_rms(system: System, track: RandomTrack) -> dict[str, float]:
+    """Return the stationary root mean square of every output of a stable bogie."""
+    return _named(system, np.sqrt(sum(_mean_squares(system, track, which) for which in INPUTS)))
+
+
+def _mean_squares(system: System, track: RandomTrack, which: str) -> Float:
+    if which not in track.spectrum.densities:
+        return np.zeros(len(system.outputs))
+    edges = _cells(system, *(2 * np.pi * f for f in track.band.hertz(system.v)))
+    half = np.diff(edges) / 2
+    omega = ((edges[1:] + edges[:-1]) / 2)[:, None] + half[:, None] * POINTS
+    S = track.spectrum.density(which, omega.ravel() / system.v) / system.v
+    H = outputs(system, omega.ravel(), system.harmonic_input(omega.ravel(), which))
+    return np.asarray((half[:, None] * WEIGHTS).ravel() * S @ np.abs(H) ** 2)
+
+
+def _cells(system: System, low: float, high: float) -> Float:
+    """Return the ends of the cells of integration [rad/s], small where a mode resonates."""
+    s = system.eigenvalues
+    near = np.sinh(np.linspace(-6, 6, 2 * NEAR + 1))
+    around = (s[s.imag > 0].imag[:, None] + np.abs(s[s.imag > 0].real)[:, None] * near).ravel()
+    edges = np.concatenate([np.geomspace(low, high, GRID), around])
+    return np.asarray(np.unique(np.clip(edges, low, high)))

@@ -1,0 +1,187 @@
+"""The bogie's motion over a track: where it starts, what drives it, and its history."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from yawdesign.problem import ProblemError
+from yawdesign.problem.diagnostics import unknown_key
+from yawdesign.response.run.frequency import states
+from yawdesign.response.run.system import Float, System
+from yawdesign.response.run.time_steps import (
+    clock_of,
+    first_order_hold,
+    forced,
+    forced_by_lines,
+    march,
+    settled,
+    time_step,
+)
+from yawdesign.response.track.measured import MeasuredTrack
+from yawdesign.response.track.named_tracks import AnyTrack
+from yawdesign.response.track.tracks import Clock, Lines, RandomTrack, synthesise
+from yawdesign.vehicle.signals import unit_of
+
+USUAL_DURATION = 60.0  # [s]
+USUAL_GROWTH, LEAST_DURATION = 7.0, 2.0  # an unstable bogie usually runs until it has grown by exp(7), or for 2 s
+MOST_GROWTH = 250.0  # logarithm; a run that would grow by more is cut short, before squares of its numbers overflow
+TRACK_INPUTS = ("alignment_1", "cross_level_1", "alignment_2", "cross_level_2")
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """What happens during a run.
+
+    Parameters
+    ----------
+    speed : float
+        Speed [m/s].
+    time, distance : ndarray, shape (n,)
+        Time [s] and way of the front wheelset [m].
+    values : mapping of str to ndarray
+        Track inputs (``alignment_1`` under the front wheelset, ...) and responses, in SI.
+    """
+
+    speed: float
+    time: Float
+    distance: Float
+    values: Mapping[str, Float]
+
+    def __getitem__(self, name: str) -> Float:
+        if name not in self.values:
+            raise ProblemError(f"{name} {unknown_key(name, self.values)}; there are {', '.join(self.values)}")
+        return self.values[name]
+
+    def unit(self, name: str) -> str:
+        """Return the SI unit of a column.
+
+        Parameters
+        ----------
+        name : str
+            One of `values`.
+        """
+        return unit_of(name)
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """How to run.
+
+    Parameters
+    ----------
+    track : Track
+        What to run over.
+    duration, length : float or None
+        Duration [s] or length [m] of a run, one of them at most.
+    step : float or None
+        Time step [s].
+    start : str
+        "stationary", "rest" or "offset".
+    offset : mapping of str to float
+        Displacements at the start.
+    """
+
+    track: AnyTrack
+    duration: float | None
+    length: float | None
+    step: float | None
+    start: str
+    offset: Mapping[str, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A motion, step by step.
+
+    Parameters
+    ----------
+    start : str
+        How it started.
+    clock : Clock
+        The instants.
+    transition : ndarray
+        exp(A step).
+    u, y : ndarray
+        Inputs and outputs at all instants.
+    """
+
+    start: str
+    clock: Clock
+    transition: Float
+    u: Float
+    y: Float
+
+    def history(self, system: System) -> History:
+        """Return inputs and outputs by name."""
+        values = {name: self.u[:, k] for k, name in enumerate(TRACK_INPUTS)}
+        values |= {name: self.y[:, k] for name, k in system.outputs.items()}
+        return History(system.v, self.clock.time, self.clock.time * system.v, values)
+
+
+def move(system: System, plan: Plan, abscissa: float) -> Motion:
+    """Return the motion of a bogie with a given spectral abscissa [1/s] over a track."""
+    clock = planned_clock(system, plan, abscissa)
+    hold = first_order_hold(system.A, system.B, clock.step)
+    u, lines = _inputs(system, plan.track, clock)
+    force = forced(hold, u) if lines is None else forced_by_lines(system, hold, lines, clock)
+    start = "rest" if plan.start == "stationary" and abscissa >= 0 else plan.start
+    x = _first_state(system, plan, start, hold.transition, force, u, lines)
+    y = march(hold.transition, force, x) @ system.C.T + u @ system.D.T
+    return Motion(start, clock, hold.transition, u, y)
+
+
+def planned_clock(system: System, plan: Plan, abscissa: float) -> Clock:
+    """Return the instants of the run of a bogie with a given spectral abscissa [1/s]."""
+    duration = plan.duration if plan.length is None else plan.length / system.v
+    if isinstance(plan.track, MeasuredTrack):
+        longest = plan.track.duration(system)
+        if duration is not None and duration > longest * (1 + 1e-9):
+            raise ProblemError(
+                f"{plan.track.name}: {duration:g} s are too long, the measured track ends after {longest:.4g} s "
+                f"at {3.6 * system.v:.4g} km/h"
+            )
+        duration = longest if duration is None else duration
+    if duration is None:
+        unstable = abscissa * USUAL_DURATION > USUAL_GROWTH
+        duration = max(LEAST_DURATION, USUAL_GROWTH / abscissa) if unstable else USUAL_DURATION
+    if abscissa * duration > MOST_GROWTH:
+        duration = MOST_GROWTH / abscissa
+    return clock_of(duration, time_step(system, plan.track.fastest(system.v), plan.step))
+
+
+def _inputs(system: System, track: AnyTrack, clock: Clock) -> tuple[Float, Lines | None]:
+    """Return the inputs at all instants, and their lines where these are few enough to be taken exactly."""
+    if isinstance(track, MeasuredTrack):
+        return track.inputs(system, clock), None
+    if isinstance(track, RandomTrack):
+        return synthesise(track.lines(system, clock.step * clock.steps), clock), None
+    lines = track.lines(system)
+    turned = np.exp(1j * np.outer(clock.time, lines.omega))
+    return np.asarray((turned @ lines.amplitudes).real, dtype=float), lines
+
+
+def _first_state(
+    system: System, plan: Plan, start: str, transition: Float, force: Float, u: Float, lines: Lines | None
+) -> Float:
+    if start == "rest":
+        return np.zeros(len(system.A))
+    if start == "offset":
+        return _displaced(system, plan.offset)
+    if lines is not None:
+        return np.asarray(states(system, lines.omega, lines.amplitudes).real.sum(axis=0))
+    if isinstance(plan.track, RandomTrack):
+        return settled(transition, force)
+    return np.asarray(-np.linalg.solve(system.A, system.B @ u[0]))
+
+
+def _displaced(system: System, offset: Mapping[str, float]) -> Float:
+    """Return the state of a bogie that was held displaced until its dampers had come to rest."""
+    n = len(system.coordinates)
+    x = np.zeros(len(system.A))
+    for name, value in offset.items():
+        x[system.coordinates.index(name)] = value
+    strokes = slice(2 * n, None)
+    if len(x) > 2 * n:
+        x[strokes] = -np.linalg.solve(system.A[strokes, strokes], system.A[strokes, :n] @ x[:n])
+    return x

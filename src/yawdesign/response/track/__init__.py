@@ -1,0 +1,1 @@
+"""What the wheelsets meet: tracks, spectra, measured files."""

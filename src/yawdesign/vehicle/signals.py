@@ -1,0 +1,73 @@
+"""What the motions, forces and strokes of a bogie are called: one vocabulary for state space, runs, exports and FMU.
+
+Coordinates are ``y_b``, ``phi_b``, ``y_w1``, ..., their rates ``y_b_velocity`` and ``y_b_acceleration``. A damper in
+series with its joints is displaced by ``yaw_damper_displacement``, its piston by ``yaw_damper_stroke``;
+``yaw_damper_force`` is the force of *each* of the two yaw dampers, ``yaw_damper_pair_force`` that of both.
+"""
+
+from typing import Any
+
+from yawdesign.vehicle.catalogue import YAW_DAMPER
+
+DAMPERS = {YAW_DAMPER: 2}  # equal dampers that a link stands for, where these are more than one
+YAW_FORCE, PAIR_FORCE, YAW_DISPLACEMENT = "yaw_damper_force", "yaw_damper_pair_force", "yaw_damper_displacement"
+OLD_OUTPUTS = {"F_s": PAIR_FORCE, "u_s": YAW_DISPLACEMENT}
+
+
+def velocity(coordinate: str) -> str:
+    """Return the name of the velocity of a coordinate."""
+    return f"{coordinate}_velocity"
+
+
+def acceleration(coordinate: str) -> str:
+    """Return the name of the acceleration of a coordinate."""
+    return f"{coordinate}_acceleration"
+
+
+def of_damper(link: str, what: str) -> str:
+    """Return the name of what belongs to a damper.
+
+    Examples
+    --------
+    >>> of_damper("yaw damper", "force"), of_damper("lateral damper 1", "stroke")
+    ('yaw_damper_force', 'lateral_damper_stroke_1')
+    """
+    words = link.split()
+    end = [words.pop()] if words[-1].isdigit() else []
+    return "_".join([*words, what, *end])
+
+
+def unit_of(name: str) -> str:
+    """Return the SI unit of a signal, such as ``y_b_velocity``."""
+    if "force" in name:
+        return "N"
+    base = "rad" if name.startswith(("phi", "cross_level")) else "m"
+    return base + ("/s" if name.endswith("_velocity") else "/s^2" if name.endswith("_acceleration") else "")
+
+
+class SignalNames(tuple[str, ...]):
+    """Names in their order, which are also found by what version 0.1 called them: ``v_y_b``, ``z_1``, ``F_s``, ``u_s``.
+
+    Examples
+    --------
+    >>> names = SignalNames(("y_b", "y_b_velocity", "yaw_damper_stroke"))
+    >>> names.index("v_y_b"), names.index("z_1"), "F_s" in names
+    (1, 2, False)
+    """
+
+    __slots__ = ()
+
+    @property
+    def aliases(self) -> dict[str, str]:
+        """Names by their old ones."""
+        strokes = [name for name in self if "_stroke" in name]
+        old = {f"v_{name.removesuffix('_velocity')}": name for name in self if name.endswith("_velocity")}
+        old |= {f"z_{k}": name for k, name in enumerate(strokes, 1)}
+        return old | {key: name for key, name in OLD_OUTPUTS.items() if tuple.__contains__(self, name)}
+
+    def index(self, value: Any, *between: Any) -> int:
+        """Return the place of a name, or of an old one."""
+        return super().index(self.aliases.get(value, value), *between)
+
+    def __contains__(self, value: object) -> bool:
+        return super().__contains__(value) or value in self.aliases

@@ -1,0 +1,80 @@
+"""Tapes: NumPy, compiled code and CasADi give the same bits."""
+
+import casadi as ca
+import numpy as np
+import pytest
+
+from yawdesign.hunting.boundary import routh_column
+from yawdesign.hunting.many import counts as kernels
+from yawdesign.hunting.many import library_cache, tape
+from yawdesign.hunting.many.tape import Tape
+from yawdesign.hunting.routh import count_unstable
+from yawdesign.vehicle.motions import characteristic
+
+
+@pytest.fixture(autouse=True)
+def own_cache(monkeypatch, tmp_path):
+    """Compile into a folder of the test's own."""
+    monkeypatch.setattr(library_cache, "cache_folder", lambda: tmp_path / "cache" / "0")
+
+
+def arrays(p, n, seed=0, spread=2.0):
+    rng = np.random.default_rng(seed)
+    return {name: x * spread ** rng.uniform(-1, 1, n) for name, x in p.items()} | {
+        "C_s": 10 ** rng.uniform(3, 8, n),
+    }
+
+
+def every_operation():
+    x, y, z = (ca.SX.sym(name) for name in "xyz")
+    outputs = [x + y, x - y, x * y, x / y, 1 / x, -x, x * x, 2 * x, ca.fabs(x - y), x < y, (x < y) * (y < z)]
+    outputs += [(x < y) + (y < z), (x < y) - (y < z), (x < y) * z, ca.SX(0.1) * z, ca.SX(7)]
+    return ca.Function("f", [x, y, z], [ca.vertcat(*outputs)], ["x", "y", "z"], ["out"])
+
+
+@pytest.mark.parametrize("uniform", ["", "x", "xy", "yz"])
+def test_every_operation_is_casadis(uniform):
+    f, rng = every_operation(), np.random.default_rng(0)
+    n = tape.BLOCK + 3
+    values = {name: rng.normal(size=n) if name not in uniform else 0.7 for name in "xyz"}
+    whole = [np.broadcast_to(values[name], n).reshape(1, -1) for name in "xyz"]
+    expected = np.array(f.map(n)(*whole))
+    assert np.array_equal(Tape(f)(values), expected)
+
+
+def test_the_same_bits_three_ways(table1, monkeypatch):
+    p = arrays(table1, 2 * tape.BLOCK + 5)
+    expected = kernels.unstable_roots("power", "reciprocal")(p)
+    monkeypatch.setattr(tape, "MANY", 0)
+    compiled_tape = kernels.unstable_roots.__wrapped__("power", "reciprocal")
+    assert np.array_equal(compiled_tape(p), expected)
+    assert compiled_tape._fast is not None, "there is a compiler on the machines that test this"
+    names = tuple(table1)
+    f = routh_column(names, "power", "reciprocal")
+    for k in range(0, 200, 20):
+        column = np.array(f([p[name][k] for name in names], p["C_s"][k])).ravel()
+        assert np.sum(np.diff(np.sign(column)) != 0) == expected[0, k]
+
+
+def test_an_operation_that_is_not_known():
+    x = ca.SX.sym("x")
+    with pytest.raises(NotImplementedError, match="no array operation"):
+        Tape(ca.Function("f", [x], [ca.sin(x)], ["x"], ["y"]))
+
+
+def test_counts_are_those_of_the_scalar_code(random_bogies):
+    for p, model in random_bogies(60, seed=4):
+        C_s = 1e5
+        count, doubts, _ = kernels.unstable_roots(model["kind"], model["equations"])(p | {"C_s": C_s})
+        expected = count_unstable(characteristic(p, **model).core(C_s))
+        assert count[0] == expected
+        assert doubts[0] == 0
+
+
+def test_what_lies_on_the_boundary_is_doubted(table1):
+    # s^2 + 1 = 0 twice, and a row that vanishes.
+    values = {f"a{k}": float(a) for k, a in enumerate((1, 0, 2, 0, 1))}
+    assert kernels.counts(5)(values)[1] > 0
+    critical = {**table1, "C_s": 90702.8897786979}
+    assert kernels.verdicts("power", "as-printed")(critical)[1] == 0
+    assert kernels.verdicts("power", "as-printed")({**critical, "C_s": critical["C_s"] * 1.001})[1] == 1

@@ -1,0 +1,231 @@
+"""The bogie built a second time, from bodies, springs and dampers at their places, in the multibody code Exudyn.
+
+Nothing of the model's equations is used: bodies are rigid in the plane, connectors act between points of bodies, the
+pistons of the dampers are points without mass, and the wheel-rail contact is a force at each of the four wheels. So a
+sign, an arm or a reaction that is wrong in the model shows here.
+"""
+
+from types import SimpleNamespace
+
+import exudyn as exu
+import numpy as np
+import pytest
+import scipy.linalg as sl
+from exudyn.itemInterface import (
+    MarkerBodyPosition,
+    MarkerBodyRigid,
+    MarkerNodePosition,
+    NodePoint2D,
+    NodeRigidBody2D,
+    ObjectConnectorCartesianSpringDamper,
+    ObjectConnectorTorsionalSpringDamper,
+    ObjectGround,
+    ObjectMassPoint2D,
+    ObjectRigidBody2D,
+    SensorNode,
+)
+from scipy.optimize import linear_sum_assignment
+
+from yawdesign.hunting.eigenvalues import state_matrix
+from yawdesign.vehicle.assembly import StateSpace, physical
+from yawdesign.vehicle.catalogue import bogie
+
+ENDS, SIDES = (1, -1), (1, -1)  # front and rear, left and right
+X, Y = 0, 1
+
+
+class Assembly:
+    """A bogie in the plane: x forward, y to the left, yaw from x to y; only its car body stands still."""
+
+    def __init__(self, p, C_s):
+        self.p = SimpleNamespace(**{k.rstrip("_"): v for k, v in p.items() if k != "lambda"}, conicity=p["lambda"])
+        self.container = exu.SystemContainer()
+        self.system = self.container.AddSystem()
+        self.ground = self.system.AddObject(ObjectGround())
+        self.nodes, self.pistons = {}, []
+        self.build(C_s)
+        self.system.Assemble()
+
+    def body(self, name, x, mass, inertia):
+        node = self.system.AddNode(NodeRigidBody2D(referenceCoordinates=[x, 0, 0]))
+        self.nodes[name] = node
+        return self.system.AddObject(ObjectRigidBody2D(mass=mass, inertia=inertia, nodeNumber=node))
+
+    def point(self, body, x, y):
+        return self.system.AddMarker(MarkerBodyPosition(bodyNumber=body, localPosition=[x, y, 0]))
+
+    def piston(self, x, y):
+        node = self.system.AddNode(NodePoint2D(referenceCoordinates=[x, y]))
+        self.system.AddObject(ObjectMassPoint2D(mass=0.0, nodeNumber=node))
+        self.pistons.append(node)
+        return self.system.AddMarker(MarkerNodePosition(nodeNumber=node))
+
+    def connect(self, first, second, stiffness=(0, 0), damping=(0, 0)):
+        connector = ObjectConnectorCartesianSpringDamper(
+            markerNumbers=[first, second], stiffness=[*stiffness, 0], damping=[*damping, 0]
+        )
+        self.system.AddObject(connector)
+
+    def damper(self, first, second, place, along, joint, c):
+        """Put a damper with a joint at both ends between two points that lie at the same place."""
+        near, far = self.piston(*place), self.piston(*place)
+        self.connect(first, near, (joint, joint))
+        self.connect(near, far, damping=c * np.eye(2)[along])
+        self.connect(far, second, (joint, joint))
+
+    def build(self, C_s):
+        p, ground = self.p, self.ground
+        frame = self.body("b", 0, p.M_b, p.J_b)
+        for side in SIDES:
+            spring = self.point(ground, 0, side * p.b_2), self.point(frame, 0, side * p.b_2)
+            self.connect(*spring, (p.K_2x / 2, p.K_2y / 2))
+            at = (0, side * p.b_3)
+            self.damper(self.point(ground, *at), self.point(frame, *at), at, X, p.K_ds, C_s / 2)
+        for number, end in enumerate(ENDS, start=1):
+            at = (end * p.b_0, 0)
+            self.damper(self.point(ground, *at), self.point(frame, *at), at, Y, p.K_dt, p.C_t / 2)
+            self.wheelset(frame, number, end * p.a)
+            self.motor(frame, number, end * p.a_0)
+
+    def wheelset(self, frame, number, x):
+        p = self.p
+        wheelset = self.body(f"w{number}", x, p.M_w, p.J_w)
+        for side in SIDES:
+            box = self.point(frame, x, side * p.b_1), self.point(wheelset, 0, side * p.b_1)
+            self.connect(*box, (p.K_1x / 2, p.K_1y / 2))
+            wheel = self.point(self.ground, x, side * p.b), self.point(wheelset, 0, side * p.b)
+            self.system.AddObject(
+                ObjectConnectorCartesianSpringDamper(markerNumbers=list(wheel), springForceUserFunction=self.rail(side))
+            )
+
+    def motor(self, frame, number, x):
+        p = self.p
+        motor = self.body(f"m{number}", x, p.M_m, p.J_m)
+        hangers = self.point(frame, x, 0), self.point(motor, 0, 0)
+        self.connect(*hangers, (0, p.K_m))
+        self.damper(*hangers, (x, 0), Y, p.K_dm, p.C_m)
+        ends = [
+            self.system.AddMarker(MarkerBodyRigid(bodyNumber=body, localPosition=place))
+            for body, place in ((frame, [x, 0, 0]), (motor, [0, 0, 0]))
+        ]
+        self.system.AddObject(
+            ObjectConnectorTorsionalSpringDamper(markerNumbers=ends, stiffness=p.K_mphi, damping=p.C_mphi)
+        )
+
+    def rail(self, side):
+        """Return the force that holds a wheel: creep, and the normal force of half the axle load on a cone."""
+        p = self.p
+
+        def force(system, t, item, displacement, velocity, *unused):
+            ahead, y = displacement[:2]
+            yaw = -ahead / (side * p.b)
+            radius = p.r + side * p.conicity * y  # a wheel that moves outwards rolls on a larger radius
+            slip_x = (p.v + velocity[0] - p.v / p.r * radius) / p.v
+            slip_y = velocity[1] / p.v - yaw
+            inwards = p.W / 2 * p.conicity * (side + y / p.b)
+            return [p.f_22 * slip_x, p.f_11 * slip_y + inwards, 0]
+
+        return force
+
+    def coordinate(self, node, component):
+        return self.system.GetNodeODE2Index(node) + component
+
+    def settings(self):
+        settings = exu.SimulationSettings()
+        for solver in (settings.staticSolver, settings.timeIntegration):
+            solver.newton.numericalDifferentiation.relativeEpsilon = 1e-5
+            solver.verboseMode = 0
+        settings.solution.file.write = False
+        return settings
+
+    def eigenvalues(self):
+        """Return the finite eigenvalues of lateral motion and yaw."""
+        M, K, D = exu.ComputeLinearizedSystem(self.system, self.settings())
+        moving = [self.coordinate(node, c) for node in self.nodes.values() for c in (1, 2)]
+        pistons = [self.coordinate(node, c) for node in self.pistons for c in (0, 1)]
+        own = np.array(moving + pistons)
+        # Bodies do not move along the track: nothing but the two yaw dampers against each other would notice.
+        along = [self.coordinate(node, 0) for node in self.nodes.values()]
+        assert not np.any(K[np.ix_(moving, along)])
+        assert not np.any(D[np.ix_(moving, along)])
+        n, unit = len(moving), 1e7
+        M, K, D = (matrix[np.ix_(own, own)] / unit for matrix in (M, K, D))
+        # States: velocities of the bodies, then all positions. The rows of the pistons have no inertia.
+        left = np.vstack([np.hstack([M[:n, :n], D[:n]]), np.hstack([np.zeros((len(pistons), n)), D[n:]])])
+        left = np.vstack([left, np.hstack([np.zeros((n, n)), np.eye(n, len(own))])])
+        right = np.vstack([np.hstack([np.zeros((len(own), n)), -K]), np.eye(n, n + len(own))])
+        s = sl.eigvals(right, left, homogeneous_eigvals=True)
+        finite = np.abs(s[1]) > 1e-9 * np.abs(s[0])
+        return s[0, finite] / s[1, finite]
+
+    def swing(self, name, offset, end, steps):
+        """Return lateral displacement and yaw of all bodies over time, one wheelset being off the centre at first."""
+        self.system.SetNodeParameter(self.nodes[name], "initialCoordinates", [0, offset, 0])
+        sensors = {
+            body: self.system.AddSensor(
+                SensorNode(nodeNumber=node, storeInternal=True, outputVariableType=exu.OutputVariableType.Coordinates)
+            )
+            for body, node in self.nodes.items()
+        }
+        self.system.Assemble()
+        settings = self.settings()
+        settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = end, steps
+        settings.timeIntegration.generalizedAlpha.spectralRadius = 1
+        settings.timeIntegration.generalizedAlpha.computeInitialAccelerations = False  # points without mass have none
+        settings.timeIntegration.newton.useModifiedNewton = False
+        settings.solution.sensors.writePeriod = end / 100
+        self.system.SolveDynamic(settings)
+        return {body: self.system.GetSensorStoredData(sensor) for body, sensor in sensors.items()}
+
+
+def expected_eigenvalues(p, C_s):
+    """Return the eigenvalues of the model, with the two yaw dampers against each other."""
+    return np.append(np.linalg.eigvals(state_matrix(p, C_s)), -p["K_ds"] / C_s)
+
+
+def largest_difference(found, expected):
+    assert len(found) == len(expected)
+    apart = np.abs(found[:, None] - expected) / np.maximum(1, np.abs(expected))
+    return apart[linear_sum_assignment(apart)].max()
+
+
+def random_reciprocal_bogies(table1, n, seed):
+    """Return bogies with every parameter of Table I times or divided by up to 3, and C_s up to 10 MN s/m."""
+    rng = np.random.default_rng(seed)
+    for _ in range(n):
+        p = {name: value * 3.0 ** rng.uniform(-1, 1) for name, value in table1.items()}
+        yield {**p, "v": rng.uniform(150, 450) / 3.6}, 10 ** rng.uniform(4.5, 7)
+
+
+def test_eigenvalues_of_random_bogies(table1):
+    for p, C_s in random_reciprocal_bogies(table1, 50, seed=1):
+        found = Assembly(p, C_s).eigenvalues()
+        assert largest_difference(found, expected_eigenvalues(p, C_s)) < 1e-6
+
+
+def test_every_parameter_counts(table1):
+    expected = expected_eigenvalues(table1, 1e6)
+    for name in table1:
+        changed = Assembly({**table1, name: table1[name] * 1.01}, 1e6).eigenvalues()
+        assert largest_difference(changed, expected) > 1e-5, name
+
+
+def test_the_model_as_printed_is_another_one(table1):
+    printed = np.append(np.linalg.eigvals(state_matrix(table1, 1e6, equations="as-printed")), -table1["K_ds"] / 1e6)
+    assert largest_difference(Assembly(table1, 1e6).eigenvalues(), printed) > 1e-3
+
+
+def test_motion_after_an_offset_of_the_front_wheelset(table1):
+    offset, end = 1e-4, 1.0
+    coarse, fine = (Assembly(table1, 1e6).swing("w1", offset, end, steps) for steps in (4000, 8000))
+    coordinates = StateSpace(physical(bogie({**table1, "C_s": 1e6}))).coordinates
+    start = np.zeros(25)
+    start[coordinates.index("y_w1")] = offset
+    matrix = state_matrix(table1, 1e6)
+    exact = np.array([sl.expm(matrix * t) @ start for t in fine["b"][:, 0]])
+    for body in fine:
+        # The integrator starts without accelerations, which costs it one order: two step sizes give it back.
+        motion = 2 * fine[body] - coarse[body]
+        for name, column in (("y", 2), ("phi", 3)):
+            expected = exact[:, coordinates.index(f"{name}_{body}")]
+            assert motion[:, column] == pytest.approx(expected, abs=3e-4 * np.abs(expected).max())

@@ -1,0 +1,118 @@
+"""Modes: their names, shapes and participation against an eigenvalue problem in other coordinates."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import yawdesign as yd
+from yawdesign.hunting.eigenvalues import state_matrix
+from yawdesign.response.modes.named_modes import modes_at
+from yawdesign.vehicle.assembly import StateSpace, physical
+from yawdesign.vehicle.catalogue import bogie
+
+
+def roots_of(modes):
+    s = np.array([mode.eigenvalue for mode in modes])
+    return np.concatenate([s, s[s.imag > 0].conj()])
+
+
+def distance(found, expected):
+    apart = np.abs(found[:, None] - expected) / (1 + np.abs(expected))
+    return max(apart.min(axis=0).max(), apart.min(axis=1).max())
+
+
+@given(seed=st.integers(0, 2**32 - 1))
+@settings(max_examples=40, deadline=None)
+def test_names_cover_every_root_once(random_bogies, seed):
+    for p, model in random_bogies(1, seed=seed):
+        modes = modes_at(p, 3e5, **model)
+        expected = np.linalg.eigvals(state_matrix(p, 3e5, **model))
+        names = [mode.name for mode in modes]
+        assert len(set(names)) == len(names)
+        assert len(roots_of(modes)) == len(expected)
+        assert distance(roots_of(modes), expected) < 1e-5  # the double root as printed is known to half the digits
+        assert all(mode.eigenvalue.imag >= 0 for mode in modes)
+        assert max(mode.residual for mode in modes) < 1e-10
+        for mode in modes:
+            assert sum(mode.participation.values()) == pytest.approx(1)
+            assert all(share >= 0 for share in mode.participation.values())
+
+
+def physical_eigenvectors(p, C_s, model):
+    """Return eigenvalues, right and left eigenvectors in the coordinates of each end, and the names of the states."""
+    system = StateSpace(physical(bogie({**p, "C_s": C_s}, **model)))
+    matrix = state_matrix(p, C_s, **model)
+    s, right = np.linalg.eig(matrix)
+    return (
+        s,
+        right,
+        np.linalg.inv(right).T,
+        (*system.coordinates, *system.coordinates, *(link.name for link, _ in system.strokes)),
+    )
+
+
+def test_shapes_and_participation_in_the_coordinates_of_each_end(table1, model):
+    s, right, left, states = physical_eigenvectors(table1, 1e6, model)
+    n = states.index("y_b", 1)
+    for mode in modes_at(table1, 1e6, **model):
+        if "motor yaw, " in mode.name and model["equations"] == "as-printed":
+            continue  # a double root: its eigenvectors may be mixed at will
+        k = int(np.argmin(np.abs(s - mode.eigenvalue)))
+        shape = np.array([mode.shape[x] for x in states[:n]])
+        expected = right[:n, k] * (shape @ right[:n, k].conj()) / (right[:n, k] @ right[:n, k].conj())
+        assert shape == pytest.approx(expected, abs=1e-7 * np.abs(shape).max())
+        product = left[:, k] * right[:, k]
+        share = {x: abs(sum(product[i] for i, y in enumerate(states) if y == x)) for x in set(states)}
+        assert mode.participation == pytest.approx({x: v / sum(share.values()) for x, v in share.items()}, abs=1e-6)
+
+
+def test_shapes_are_scaled_to_one(table1, model):
+    for mode in modes_at(table1, 1e6, **model):
+        size = {x: abs(z) * (table1["a"] if x.startswith("phi") else 1) for x, z in mode.shape.items()}
+        assert max(size.values()) == pytest.approx(1)
+
+
+@pytest.mark.parametrize(("equations", "apart"), [("reciprocal", 1), ("as-printed", 2)])
+def test_decoupled_motors_are_named_after_how_they_move(equations, apart):
+    modes = {mode.name: mode for mode in yd.modes(yd.table1(equations=equations)).modes}
+    against = modes["motor yaw, against each other"]
+    assert against.shape["phi_m1"] == pytest.approx(-against.shape["phi_m2"])
+    assert against.participation["phi_m1"] == pytest.approx(0.5)
+    assert sum(name.startswith("motor yaw, ") for name in modes) == apart
+    if apart == 2:
+        alike = modes["motor yaw, both alike"]
+        assert alike.shape["phi_m1"] == pytest.approx(alike.shape["phi_m2"])
+
+
+def test_slow_running_is_the_rolling_of_two_coupled_wheelsets(table1):
+    # A bogie whose frame is rigid hunts with the wavelength of its two wheelsets, 21.6124 m with Table I.
+    p = {**table1, "v": 5 / 3.6, "K_1x": 1e10, "K_1y": 1e10, "K_2x": 1.0, "K_2y": 1.0, "C_t": 1.0, "W": 1.0}
+    p |= {"K_m": 1e9, "K_mphi": 1e9}
+    modes = [mode for mode in modes_at(p, 1.0, kind="power", equations="reciprocal") if mode.frequency > 0]
+    hunting = min(modes, key=lambda mode: abs(mode.eigenvalue))
+    assert hunting.name.startswith("wheelset hunting")
+    assert hunting.frequency == pytest.approx(p["v"] / 21.61240, rel=1e-3)
+
+
+def test_a_trailer_has_no_motor_modes(table1):
+    modes = modes_at(table1, 1e6, kind="trailer", equations="reciprocal")
+    assert sum(2 if mode.frequency else 1 for mode in modes) == 15
+    assert not any("motor" in mode.name for mode in modes)
+
+
+def test_modes_of_a_problem():
+    problem = yd.table1()
+    result, verdict = yd.modes(problem), yd.stability(problem)
+    assert result.checked
+    assert result.stable is verdict.stable
+    assert result.modes[0].eigenvalue == pytest.approx(verdict.eigenvalues[0])
+    assert result.modes == tuple(sorted(result.modes, key=lambda mode: mode.decay_rate))
+    assert result.to_dict()["modes"][0]["name"] == "wheelset hunting 1"
+    with pytest.raises(yd.ProblemError, match=r"bogie\.C_s is missing"):
+        yd.modes(problem.replace(C_s=None))
+
+
+def test_the_worst_of_a_range_of_speeds():
+    problem = yd.table1().replace(speed=yd.SpeedRange(min="200 km/h", max="300 km/h"))
+    assert yd.modes(problem).speed == pytest.approx(300 / 3.6)
