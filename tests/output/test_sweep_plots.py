@@ -7,7 +7,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import yawdesign as yd
-from yawdesign.output.branches import Column, curves, partners, stable_areas
+from yawdesign.output.branches import CriticalColumn, curves, partners, stable_areas
 
 PRINTED = yd.table1(equations="as-printed")
 
@@ -58,16 +58,16 @@ def test_the_stable_area_is_where_no_root_is_unstable():
 
 def test_curves_end_where_they_fold_or_leave():
     nan = np.nan
-    left = Column(np.array([10.0, nan, nan]), np.array([5.0, nan, nan]), np.array([2, 0, nan, nan]))
-    right = Column(np.array([9.0, 40.0, 60.0]), np.array([5.0, 7.0, 7.0]), np.array([2, 0, 2, 0]))
-    gone = Column(np.array([nan]), np.array([nan]), np.array([0.0, nan]))
+    left = CriticalColumn(np.array([10.0, nan, nan]), np.array([5.0, nan, nan]), np.array([2, 0, nan, nan]))
+    right = CriticalColumn(np.array([9.0, 40.0, 60.0]), np.array([5.0, 7.0, 7.0]), np.array([2, 0, 2, 0]))
+    gone = CriticalColumn(np.array([nan]), np.array([nan]), np.array([0.0, nan]))
     x = np.array([1.0, 2.0])
     assert partners(left, right) == [(0, 0)]
     found = curves(x, [left, right], 1.0, 100.0)
     assert found["unstable"] == [[(2.0, 40.0), (1.5, pytest.approx(np.sqrt(2400)))]]
     assert [(2.0, 60.0), (1.5, pytest.approx(np.sqrt(2400)))] in found["stable"]
     assert curves(x, [left, gone], 1.0, 100.0)["stable"] == [[(1.0, 10.0), (1.5, 1.0)]]
-    never = Column(np.array([nan]), np.array([nan]), np.array([2.0, nan]))
+    never = CriticalColumn(np.array([nan]), np.array([nan]), np.array([2.0, nan]))
     assert curves(x, [left, never], 1.0, 100.0)["stable"] == [[(1.0, 10.0), (1.5, 100.0)]]
     assert list(stable_areas(x, [never, never], 1.0, 100.0)) == []
     assert len(list(stable_areas(x, [gone, gone], 1.0, 100.0))) == 1

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.damper.curving import LOWERING, RAISING, curving_limit, resistance_scale, resisting_moment
+from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.eigenvalues import MARGINS, core_eigenvalues
 from yawdesign.hunting.routh import damped_more, decays_faster
 from yawdesign.hunting.verdict import fixed_factors
@@ -20,7 +21,6 @@ from yawdesign.problem import PARAMETERS, Curve, Problem
 from yawdesign.problem.conditions import Condition, conditions
 from yawdesign.vehicle.motions import characteristic
 
-Float = NDArray[np.float64]
 Values = dict[str, Any]
 
 # The dampers that have joints, and the stiffnesses of these. Where a damper is so weak that its stroke's own root -K/c

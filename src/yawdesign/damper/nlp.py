@@ -14,7 +14,8 @@ import casadi as ca
 import numpy as np
 
 from yawdesign.damper.curving import resistance_scale, resisting_moment
-from yawdesign.damper.design_space import Float, Space, between, fraction, rigid_joints, scale
+from yawdesign.damper.design_space import Space, between, fraction, rigid_joints, scale
+from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.eigenvalues import roots
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.vehicle.motions import characteristic

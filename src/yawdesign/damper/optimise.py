@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 
 from yawdesign.damper.curving import excess, rotational_resistance
-from yawdesign.damper.design_space import Float, Space, fraction, scale
+from yawdesign.damper.design_space import Space, fraction, scale
 from yawdesign.damper.forward import REMEDIES, UNDAMPED, ForwardDesign, design, factors_damped
 from yawdesign.damper.nlp import improve
 from yawdesign.damper.search import Progress, refine, search
+from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.hurwitz import hurwitz_minors
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.hunting.verdict import Mode, Stability, stability_at

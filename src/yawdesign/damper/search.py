@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-from yawdesign.damper.design_space import Float, Space
+from yawdesign.damper.design_space import Space
+from yawdesign.hunting.arrays import Float
 
 BLOCK = 20_000  # points at once: enough to hide Python's overhead, few enough for any memory
 CELLS = 6  # cells per axis in up to three variables, each with a best point of its own; in all about 6^3
@@ -26,7 +27,7 @@ Progress = Callable[[str, float], None]
 
 
 @dataclass
-class _Cells:
+class _DesignCells:
     """The best point of every cell; the last of the axes are divided, C_s among them."""
 
     x: Float
@@ -57,7 +58,7 @@ class _Cells:
 def search(space: Space, seed: int, progress: Progress) -> Float:
     """Return refined points of the cube, shape (variables, points), the best first."""
     d, rng = len(space.names), np.random.default_rng(seed)
-    cells = _Cells.of(d)
+    cells = _DesignCells.of(d)
     first = np.concatenate([qmc.Sobol(d, rng=rng).random(1024).T, space.anchors], axis=1)
     cells.offer(first, space.margins_at(first))
     blocks = list(_blocks(space, rng))
@@ -69,7 +70,7 @@ def search(space: Space, seed: int, progress: Progress) -> Float:
     return refine(space, cells.x[:, order], cells.margin[order], rng, progress=progress)
 
 
-def _look(space: Space, cells: _Cells, x: Float) -> None:
+def _look(space: Space, cells: _DesignCells, x: Float) -> None:
     levels = np.maximum(cells.margin[cells.index(x)], -1e3)
     flat = np.broadcast_to(space.beats(space.values(x), levels), x.shape[1:])
     chosen = x[:, flat]

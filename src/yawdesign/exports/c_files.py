@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from string import Template
 
 from yawdesign.exports.functions import Documented, work_sizes
-from yawdesign.exports.names import Names
+from yawdesign.exports.names import ExportNames
 from yawdesign.exports.ports import Port
 from yawdesign.exports.templates import EXAMPLE, HEADER, MAKEFILE, SELF_TEST
 from yawdesign.output.texts import printable
@@ -18,7 +18,7 @@ def ascii_text(text: str) -> str:
     return printable(text).encode("ascii", "replace").decode().replace("*/", "* /").replace("/*", "/ *")
 
 
-def header(functions: Mapping[str, Documented], about: str, names: Names) -> str:
+def header(functions: Mapping[str, Documented], about: str, names: ExportNames) -> str:
     """Return the header: what goes in and out, names of the places, sizes of the work vectors, and values to start."""
     blocks = "\n".join(_block(names.symbol(name), f) for name, f in functions.items())
     return Template(HEADER).substitute(about=ascii_text(about), functions=blocks, guard=names.guard)
@@ -78,7 +78,7 @@ def _number(x: float | None) -> str:
     return repr(float(x)) if math.isfinite(x) else ("INFINITY" if x > 0 else "-INFINITY")
 
 
-def self_test_source(tests: Mapping[str, Mapping[str, Mapping[str, Sequence[float]]]], names: Names) -> str:
+def self_test_source(tests: Mapping[str, Mapping[str, Mapping[str, Sequence[float]]]], names: ExportNames) -> str:
     """Return a C program that runs all self-test vectors and prints what differs."""
     cases, rows = [], []
     for name, test in tests.items():
@@ -94,12 +94,12 @@ def self_test_source(tests: Mapping[str, Mapping[str, Mapping[str, Sequence[floa
     return Template(SELF_TEST).substitute(cases="\n".join(cases), rows="\n".join(rows), header=names.header)
 
 
-def example_source(name: str, f: Documented, names: Names) -> str:
+def example_source(name: str, f: Documented, names: ExportNames) -> str:
     """Return a C program that evaluates one function with inputs from the command line."""
     first = next((port.name for port in f.inputs), "name")
     return Template(EXAMPLE).substitute(name=name, s=names.symbol(name), first=first, header=names.header)
 
 
-def makefile(names: Names) -> str:
+def makefile(names: ExportNames) -> str:
     """Return the Makefile."""
     return Template(MAKEFILE).substitute(prefix=names.prefix)

@@ -17,7 +17,7 @@ TAKEN = frozenset([*_OWN.split(), *_STANDARD.split()])
 
 
 @dataclass(frozen=True)
-class Names:
+class ExportNames:
     """Names of files and symbols.
 
     Parameters

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from yawdesign.exports.functions import Documented, SelfTest
-from yawdesign.exports.names import Names
+from yawdesign.exports.names import ExportNames
 from yawdesign.problem import Problem
 
 
@@ -20,14 +20,14 @@ class Parcel:
         The functions.
     tests : mapping name -> SelfTest or None
         Their self-test vectors.
-    names : Names
+    names : ExportNames
         Of the C files and their symbols.
     """
 
     problem: Problem
     functions: Mapping[str, Documented]
     tests: Mapping[str, SelfTest | None]
-    names: Names = field(default_factory=Names)
+    names: ExportNames = field(default_factory=ExportNames)
 
 
 class Unavailable(Exception):  # noqa: N818 - no mistake of the user

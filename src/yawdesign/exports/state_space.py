@@ -4,15 +4,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from yawdesign.exports.functions import functions
 from yawdesign.exports.states import state_names
+from yawdesign.hunting.arrays import Float
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.result import Result
 from yawdesign.vehicle.signals import SignalNames
-
-Float = NDArray[np.float64]
 
 
 @dataclass(frozen=True, repr=False, eq=False)

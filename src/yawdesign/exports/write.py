@@ -11,7 +11,7 @@ from yawdesign.exports.folder import check_place, exported_folder, write_text
 from yawdesign.exports.functions import c_source, functions, listed, self_test, versions
 from yawdesign.exports.manifest import write_manifest
 from yawdesign.exports.matlab import write_mat
-from yawdesign.exports.names import PREFIX, Names
+from yawdesign.exports.names import PREFIX, ExportNames
 from yawdesign.exports.parcel import Parcel, Unavailable
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
@@ -29,9 +29,9 @@ class Export(Result):
     folder : str
         Where.
     files : tuple of str
-        Names in the folder; ``manifest.json`` tells what is in each.
+        ExportNames in the folder; ``manifest.json`` tells what is in each.
     functions : tuple of str
-        Names of the functions.
+        ExportNames of the functions.
     notes : tuple of str
         What was left out, and why.
     """
@@ -127,7 +127,7 @@ def export(
         If the folder cannot be written.
     """
     only, formats = _sorted_out(only, formats)
-    wanted, names = _formats(formats), Names(prefix)
+    wanted, names = _formats(formats), ExportNames(prefix)
     check_place(Path(to), force=force)
     documented = functions(problem, inputs, only).documented
     if not documented:

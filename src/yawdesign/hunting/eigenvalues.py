@@ -5,14 +5,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.vehicle.assembly import StateSpace, folded, physical
 from yawdesign.vehicle.catalogue import Parameters, bogie
 from yawdesign.vehicle.elements import Link, Mass, Single, WheelRailContact
 from yawdesign.vehicle.polynomials import Number, Polynomial, derivative, evaluate, scale_variable
-
-Complex = NDArray[np.complex128]
-Float = NDArray[np.float64]
 
 
 def state_matrix(p: Parameters, C_s: Number, *, kind: str = "power", equations: str = "reciprocal") -> Float:

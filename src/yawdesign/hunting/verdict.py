@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from yawdesign.hunting.arrays import Complex
 from yawdesign.hunting.eigenvalues import (
-    Complex,
     backward_error,
     core_eigenvalues,
     count_undamped,

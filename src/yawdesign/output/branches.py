@@ -4,16 +4,16 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-Float = NDArray[np.float64]
+from yawdesign.hunting.arrays import Float
+
 Points = list[tuple[float, float]]
 
 # What the bogie becomes when the quantity grows through a critical value.
 KINDS = ("stable", "unstable", "neither")
 
 
-class Column:
+class CriticalColumn:
     """All critical values at one place of the axis, in rising order, and what lies between them.
 
     Parameters
@@ -40,7 +40,7 @@ class Column:
         return [pair for pair, n in zip(pairwise(ends), self.roots, strict=False) if n == 0 and pair[0] < pair[1]]
 
 
-def partners(left: Column, right: Column) -> list[tuple[int, int]]:
+def partners(left: CriticalColumn, right: CriticalColumn) -> list[tuple[int, int]]:
     """Return which value of a place continues which value of the next: nearest neighbours of the same kind."""
     if left.values.size == right.values.size and left.kinds == right.kinds:
         return [(k, k) for k in range(left.values.size)]
@@ -56,7 +56,7 @@ def partners(left: Column, right: Column) -> list[tuple[int, int]]:
     return [pair for pair in pairs if np.isfinite(distance[pair])]
 
 
-def curves(x: Float, columns: list[Column], bottom: float, top: float) -> dict[str, list[Points]]:
+def curves(x: Float, columns: list[CriticalColumn], bottom: float, top: float) -> dict[str, list[Points]]:
     """Return the pieces of the curves, by what the bogie becomes above them.
 
     Between two places a curve may turn back, or leave through the bottom or the top: its end is drawn half way.
@@ -74,7 +74,9 @@ def curves(x: Float, columns: list[Column], bottom: float, top: float) -> dict[s
     return out
 
 
-def _ends(column: Column, other: Column, taken: set[int], bottom: float, top: float) -> Iterator[tuple[int, float]]:
+def _ends(
+    column: CriticalColumn, other: CriticalColumn, taken: set[int], bottom: float, top: float
+) -> Iterator[tuple[int, float]]:
     """Yield the values that the other place does not continue, with where they go: to a neighbour or out of sight."""
     kinds, loose = column.kinds, [k for k in range(column.values.size) if k not in taken]
     folded = [k for k in loose if k + 1 in loose and kinds[k] != kinds[k + 1]]
@@ -88,7 +90,7 @@ def _ends(column: Column, other: Column, taken: set[int], bottom: float, top: fl
             yield k, top
 
 
-def stable_areas(x: Float, columns: list[Column], bottom: float, top: float) -> Iterator[Points]:
+def stable_areas(x: Float, columns: list[CriticalColumn], bottom: float, top: float) -> Iterator[Points]:
     """Yield polygons that cover what is stable."""
     for (x_1, left), (x_2, right) in pairwise(zip(x, columns, strict=True)):
         if left.kinds == right.kinds and np.array_equal(left.roots, right.roots):

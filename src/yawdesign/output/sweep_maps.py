@@ -3,8 +3,8 @@
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from yawdesign.hunting.arrays import Float
 from yawdesign.output.branches import curves
 from yawdesign.output.shown_units import shown_unit
 from yawdesign.output.sweep_plots import (
@@ -29,8 +29,6 @@ from yawdesign.study.result import Sweep
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-Float = NDArray[np.float64]
 
 
 def draw_map(sweep: Sweep, ax: "Axes") -> "Axes":

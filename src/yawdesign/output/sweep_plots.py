@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign.output.branches import Column, curves, stable_areas
+from yawdesign.hunting.arrays import Float
+from yawdesign.output.branches import CriticalColumn, curves, stable_areas
 from yawdesign.output.plots import literal, new_axes
 from yawdesign.output.shown_units import shown_unit
 from yawdesign.problem import ProblemError, to_unit
@@ -19,7 +20,6 @@ from yawdesign.study.result import Sweep
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Float = NDArray[np.float64]
 
 STABLE, UNSTABLE, UNKNOWN = "#cfe8cf", "#f4d3cf", "#d9d9d9"
 COLOURS = {"stable": "#1b6e3a", "unstable": "#b2182b", "neither": "#7f7f7f"}
@@ -135,11 +135,11 @@ def legend_below(ax: "Axes", **options: Any) -> None:
     ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, fontsize="small", frameon=False, **options)
 
 
-def columns_of(sweep: Sweep, factor: float) -> list[Column]:
+def columns_of(sweep: Sweep, factor: float) -> list[CriticalColumn]:
     """Return all critical values at each place of the only axis."""
     values, roots = sweep.main * factor, sweep.columns["unstable_roots"]
     rows = zip(values, sweep.columns["omega"], roots, strict=True)
-    return [Column(*row) for row in rows]
+    return [CriticalColumn(*row) for row in rows]
 
 
 def draw_lines(ax: "Axes", lines: dict[str, list[Any]], swap: bool = False, label: bool = True) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.damper.curving import curving_limit, rotational_resistance
+from yawdesign.hunting.arrays import Bools
 from yawdesign.hunting.many import counts as kernels
 from yawdesign.hunting.many.critical_values import CriticalField, critical_field
 from yawdesign.hunting.many.parameter_sets import Block
@@ -17,8 +18,6 @@ from yawdesign.study.choice import choose
 from yawdesign.study.margins import margins
 from yawdesign.study.question import Answers, Question
 from yawdesign.study.speeds import critical_speeds
-
-Bools = NDArray[np.bool_]
 
 LENGTH = 16384  # points that one thread looks at
 VERDICTS = 32768  # the same for verdicts, which need less memory a point

@@ -6,14 +6,12 @@ from math import pi, prod
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
+from yawdesign.hunting.arrays import Float
 from yawdesign.problem import PARAMETERS, Parameter, ProblemError, format_quantity
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_count, check_ends
-
-Float = NDArray[np.float64]
 
 MOST_VALUES = 10_000_000  # on one axis
 

@@ -7,10 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.damper.forward import GOLDEN, UNDAMPED
+from yawdesign.hunting.arrays import Bools, Float
 from yawdesign.hunting.many.critical_values import CriticalField
-
-Float = NDArray[np.float64]
-Bools = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)

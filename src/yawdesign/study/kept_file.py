@@ -13,11 +13,12 @@ import numpy as np
 from numpy.lib import format as npy
 
 from yawdesign import __version__
+from yawdesign.hunting.arrays import Array
 from yawdesign.problem import ProblemError
 from yawdesign.problem.result import plain
 from yawdesign.problem.stopping import held
 from yawdesign.problem.whole_files import whole_file
-from yawdesign.study.question import UNITS, Array
+from yawdesign.study.question import UNITS
 from yawdesign.study.request import Request, memory
 from yawdesign.study.store import MASKS, Store
 

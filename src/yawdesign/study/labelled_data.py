@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from yawdesign.hunting.arrays import Array
 from yawdesign.problem import ProblemError
 from yawdesign.problem.result import plain
 from yawdesign.problem.whole_files import refuse_existing, whole_file, write_whole
 from yawdesign.study.axes import ROWS, block
-from yawdesign.study.question import UNITS, Array
+from yawdesign.study.question import UNITS
 from yawdesign.study.result import Sweep
 from yawdesign.study.store import MASKS, write_arrays
 

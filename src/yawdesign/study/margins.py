@@ -1,8 +1,8 @@
 """Margins of many points: eigenvalues in stacks, checked by the polynomial."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from yawdesign.hunting.arrays import Bools, Complex, Float
 from yawdesign.hunting.eigenvalues import MARGINS, backward_error, core_matrix, count_undamped
 from yawdesign.hunting.many import counts as kernels
 from yawdesign.hunting.many.parameter_sets import Block
@@ -10,10 +10,6 @@ from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.hunting.verdict import EXACT, fixed_factors
 from yawdesign.study.question import Question
 from yawdesign.vehicle.polynomials import Polynomial, scale_variable
-
-Float = NDArray[np.float64]
-Bools = NDArray[np.bool_]
-Complex = NDArray[np.complex128]
 
 ROWS = (
     256  # points whose eigenvalues fit a cache, and an allocator that gives larger pieces back to the system each time

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from yawdesign.hunting.arrays import Array
 from yawdesign.problem import Curve, Problem
-
-Array = NDArray[np.generic]
 
 # What can be asked, and the unit of its answer.
 QUANTITIES = {

@@ -13,19 +13,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign import __version__
+from yawdesign.hunting.arrays import Array, Bools
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import unknown_key
 from yawdesign.problem.result import Result, plain
 from yawdesign.study.axes import Axis, shape
 from yawdesign.study.kept_file import KeptFile
-from yawdesign.study.question import QUANTITIES, UNITS, Array
+from yawdesign.study.question import QUANTITIES, UNITS
 from yawdesign.study.request import Request
 from yawdesign.study.store import MASKS, Store
 
 if TYPE_CHECKING:
     import xarray
 
-Mask = NDArray[np.bool_]
 
 MAIN = {"design": "C_s"}  # the column that `values` shows, where it is not named after the quantity
 
@@ -61,9 +61,9 @@ class Sweep(Result):
     unit: str
     axes: tuple[Axis, ...]
     columns: Mapping[str, NDArray[Any]]
-    finished: Mask
-    recomputed: Mask
-    unverified: Mask
+    finished: Bools
+    recomputed: Bools
+    unverified: Bools
     provenance: Mapping[str, Any]
     boundary: "Sweep | None"
     request: Request
@@ -80,15 +80,15 @@ class Sweep(Result):
         return _tuples(self.main) if several else self.main
 
     @property
-    def known(self) -> Mask:
+    def known(self) -> Bools:
         """Points that have an answer which was verified."""
         return self.finished & ~self.unverified
 
     @property
-    def good(self) -> Mask:
+    def good(self) -> Bools:
         """Points that are stable; where no C_s is given, points that some C_s makes stable (`design`: has a design)."""
         if "unstable_roots" in self.columns:
-            good: Mask = np.any(self.columns["unstable_roots"] == 0, axis=-1)
+            good: Bools = np.any(self.columns["unstable_roots"] == 0, axis=-1)
         elif self.quantity in ("C_sl", "design"):
             good = np.isfinite(self.main)
         else:

@@ -9,19 +9,14 @@ changes that undo each other. Every change is halved down to rounding.
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from yawdesign.hunting.arrays import Bools, Complex, Float, Index
 from yawdesign.hunting.eigenvalues import count_undamped
 from yawdesign.hunting.many import counts as kernels
 from yawdesign.hunting.many.critical_values import Rows
 from yawdesign.hunting.many.parameter_sets import Block
 from yawdesign.study.margins import eigenvalues
 from yawdesign.study.question import Answers, Question
-
-Float = NDArray[np.float64]
-Ints = NDArray[np.intp]
-Complex = NDArray[np.complex128]
-Bools = NDArray[np.bool_]
 
 SPEEDS = 240  # between which changes are looked for
 WITHIN = 12  # the same inside each interval with a change
@@ -62,7 +57,7 @@ class _Samples(NamedTuple):
     `nearness` is zero where a pair of roots lies on the imaginary axis.
     """
 
-    owner: Ints
+    owner: Index
     v: Float
     counts: Float
     nearness: Float
@@ -71,15 +66,15 @@ class _Samples(NamedTuple):
 class _Intervals(NamedTuple):
     """Intervals of speed with different counts at their ends, and who has a pair of roots that touches the axis."""
 
-    owner: Ints
+    owner: Index
     low: Float
     high: Float
     before: Float
     after: Float
-    touching: Ints
+    touching: Index
 
 
-def _sampled(question: Question, block: Block, owner: Ints, v: Float) -> tuple[_Samples, Bools]:
+def _sampled(question: Question, block: Block, owner: Index, v: Float) -> tuple[_Samples, Bools]:
     """Return what is counted for every owner at its row of speeds, and where eigenvalues had to be asked."""
     counts, nearness = np.empty((2, *v.shape))
     mended = np.zeros(block.size, dtype=bool)
@@ -111,7 +106,7 @@ def _intervals(question: Question, block: Block, samples: _Samples) -> _Interval
     return _Intervals(owners, lows, highs, befores, afters, touching)
 
 
-def _dips(samples: _Samples) -> tuple[Ints, Float, Float, Float]:
+def _dips(samples: _Samples) -> tuple[Index, Float, Float, Float]:
     """Return where the nearness has a least value among speeds of the same count: whose, between which, the count."""
     same = np.diff(samples.counts, axis=1) == 0
     beyond = np.full((len(same), 1), False)
@@ -125,7 +120,7 @@ def _dips(samples: _Samples) -> tuple[Ints, Float, Float, Float]:
 
 
 def _least(
-    question: Question, block: Block, owner: Ints, low: Float, high: Float, count: Float
+    question: Question, block: Block, owner: Index, low: Float, high: Float, count: Float
 ) -> tuple[Float, Float, Float]:
     """Return where in each interval the nearness is least (golden section), or any place found with another count.
 
@@ -170,7 +165,7 @@ def _count(question: Question, block: Block) -> tuple[Float, Bools, Float]:
     return count, doubtful, near
 
 
-def _changes(question: Question, block: Block, found: _Intervals) -> tuple[Ints, Float, Float]:
+def _changes(question: Question, block: Block, found: _Intervals) -> tuple[Index, Float, Float]:
     """Return whose count changes at which speed, and the count above it."""
     owner, low, high, before, after, _ = found
     pieces: list[tuple[Any, ...]] = [(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0))]
@@ -190,7 +185,7 @@ def _changes(question: Question, block: Block, found: _Intervals) -> tuple[Ints,
     return whole[0], whole[1], whole[2]
 
 
-def _nearest(question: Question, block: Block, owner: Ints, v: Float) -> Complex:
+def _nearest(question: Question, block: Block, owner: Index, v: Float) -> Complex:
     """Return of every owner at its speed the eigenvalue that is nearest to the imaginary axis."""
     if not len(owner):
         return np.zeros(0, dtype=complex)

@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from yawdesign.hunting.arrays import Array
 from yawdesign.problem.stopping import held
 from yawdesign.problem.whole_files import whole_file
-from yawdesign.study.question import Answers, Array
+from yawdesign.study.question import Answers
 
 MASKS = ("finished", "recomputed", "unverified")
 

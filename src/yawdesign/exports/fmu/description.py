@@ -4,18 +4,18 @@ from collections.abc import Mapping, Sequence
 from xml.etree import ElementTree
 
 from yawdesign import __version__
-from yawdesign.exports.fmu.variables import Variable
+from yawdesign.exports.fmu.variables import FmuVariable
 from yawdesign.problem.units import parse_unit
 
 IDENTIFIER = "yawdesign_bogie"
 
 
-def model_description(table: Sequence[Variable], *, token: str, title: str) -> str:
+def model_description(table: Sequence[FmuVariable], *, token: str, title: str) -> str:
     """Return modelDescription.xml.
 
     Parameters
     ----------
-    table : sequence of Variable
+    table : sequence of FmuVariable
         All variables, the time last.
     token : str
         Instantiation token; the library knows the same.
@@ -67,7 +67,7 @@ def fmi_unit(unit: str) -> str:
     return "1" if unit == "-" else unit.replace("·", ".").replace("²", "2")
 
 
-def _add_units(root: ElementTree.Element, table: Sequence[Variable]) -> None:
+def _add_units(root: ElementTree.Element, table: Sequence[FmuVariable]) -> None:
     shown: dict[str, list[str]] = {}
     for variable in table:
         units = shown.setdefault(variable.unit, [])
@@ -89,7 +89,7 @@ def _base(unit: str) -> dict[str, str]:
     return {name: str(power) for name, power in powers.items() if power}
 
 
-def _add_variables(root: ElementTree.Element, table: Sequence[Variable]) -> None:
+def _add_variables(root: ElementTree.Element, table: Sequence[FmuVariable]) -> None:
     parent = ElementTree.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(table):
         entry = ElementTree.SubElement(parent, "Float64", _attributes(variable, reference))
@@ -97,7 +97,7 @@ def _add_variables(root: ElementTree.Element, table: Sequence[Variable]) -> None
             ElementTree.SubElement(entry, "Alias", name=name, description=f"another name of {variable.name}")
 
 
-def _attributes(variable: Variable, reference: int) -> dict[str, str]:
+def _attributes(variable: FmuVariable, reference: int) -> dict[str, str]:
     given = {
         "name": variable.name,
         "valueReference": str(reference),
@@ -117,13 +117,13 @@ def _attributes(variable: Variable, reference: int) -> dict[str, str]:
     return {key: x if isinstance(x, str) else repr(x) for key, x in given.items() if x not in ("", None)}
 
 
-def _initial(variable: Variable) -> str:
+def _initial(variable: FmuVariable) -> str:
     if variable.causality in ("independent", "input"):
         return ""
     return "calculated" if variable.start is None else "exact"
 
 
-def _add_structure(root: ElementTree.Element, table: Sequence[Variable]) -> None:
+def _add_structure(root: ElementTree.Element, table: Sequence[FmuVariable]) -> None:
     parent = ElementTree.SubElement(root, "ModelStructure")
     outputs = [i for i, variable in enumerate(table) if variable.causality == "output"]
     derivatives = [i for i, variable in enumerate(table) if variable.derivative_of is not None]
@@ -137,12 +137,12 @@ def _add_structure(root: ElementTree.Element, table: Sequence[Variable]) -> None
             ElementTree.SubElement(parent, tag, valueReference=str(reference))
 
 
-def header(table: Sequence[Variable], *, token: str, sizes: Mapping[str, int]) -> str:
+def header(table: Sequence[FmuVariable], *, token: str, sizes: Mapping[str, int]) -> str:
     """Return sources/model.h.
 
     Parameters
     ----------
-    table : sequence of Variable
+    table : sequence of FmuVariable
         All variables, the time last.
     token : str
         Instantiation token.

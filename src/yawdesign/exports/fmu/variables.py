@@ -20,7 +20,7 @@ _OUTPUTS = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class Variable:
+class FmuVariable:
     """One variable of an FMU; its value reference is its place in the table.
 
     Parameters
@@ -57,7 +57,7 @@ class Variable:
         return "tunable" if self.causality == "parameter" else "continuous"
 
 
-def variables(motion: EquationsOfMotion, values: Mapping[str, float]) -> list[Variable]:
+def variables(motion: EquationsOfMotion, values: Mapping[str, float]) -> list[FmuVariable]:
     """Return the table: parameters, inputs, states, derivatives, outputs, time.
 
     Parameters
@@ -77,14 +77,14 @@ def variables(motion: EquationsOfMotion, values: Mapping[str, float]) -> list[Va
         *(_derivative(state, first + i) for i, state in enumerate(known[first:])),
         *(_output(name) for name in motion.outputs),
     ]
-    time = Variable(name="time", description="time", causality="independent", unit="s")
+    time = FmuVariable(name="time", description="time", causality="independent", unit="s")
     return [*known, *unknown, time]
 
 
-def _parameter(name: str, value: float) -> Variable:
+def _parameter(name: str, value: float) -> FmuVariable:
     row: Parameter = SPEED if name == "v" else PARAMETERS[name]
     least, greatest = row.hard
-    return Variable(
+    return FmuVariable(
         name=name,
         description=row.meaning,
         causality="parameter",
@@ -96,11 +96,11 @@ def _parameter(name: str, value: float) -> Variable:
     )
 
 
-def _input(name: str) -> Variable:
+def _input(name: str) -> FmuVariable:
     kind, end = name.rsplit("_", 1)
     where = f"under the {_ENDS[end]}wheelset"
     if kind == "alignment":
-        return Variable(
+        return FmuVariable(
             name=name,
             description=f"lateral position of the track's centre line {where}",
             causality="input",
@@ -108,7 +108,7 @@ def _input(name: str) -> Variable:
             shown="mm",
             start=0.0,
         )
-    return Variable(
+    return FmuVariable(
         name=name,
         description=f"cross-level angle of the track {where}",
         causality="input",
@@ -118,14 +118,16 @@ def _input(name: str) -> Variable:
     )
 
 
-def _states(motion: EquationsOfMotion) -> Iterator[Variable]:
+def _states(motion: EquationsOfMotion) -> Iterator[FmuVariable]:
     moves = len(motion.states) - len(motion.dashpots)
     for name in motion.states[:moves]:
         coordinate = name.removesuffix("_velocity")
         yield _coordinate(name) if name == coordinate else _velocity(coordinate)
     for k, (name, damper) in enumerate(zip(motion.states[moves:], motion.dashpots, strict=True), 1):
         text = f"stroke of the dashpot of the {_damper(damper)}, without its joints"
-        known = Variable(name=name, description=text, causality="local", unit="m", shown="mm", start=0.0, nominal=1e-3)
+        known = FmuVariable(
+            name=name, description=text, causality="local", unit="m", shown="mm", start=0.0, nominal=1e-3
+        )
         yield replace(known, aliases=(f"z_{k}",))
 
 
@@ -133,7 +135,7 @@ def _damper(name: str) -> str:
     return f"{_ENDS[name[-1]]}{name[:-1].strip()}" if name[-1] in _ENDS else f"{name}s"
 
 
-def _velocity(name: str) -> Variable:
+def _velocity(name: str) -> FmuVariable:
     """Return the variable of the velocity of a coordinate."""
     x = _coordinate(name)
     text, unit = f"rate of the {x.description}", f"{x.unit}/s"
@@ -141,18 +143,18 @@ def _velocity(name: str) -> Variable:
     return replace(x, description=text, unit=unit, shown="", nominal=1e-2)
 
 
-def _coordinate(name: str) -> Variable:
+def _coordinate(name: str) -> FmuVariable:
     kind, body = name.split("_")
     unit, shown, text = _MOTION[kind]
     description = f"{text} of the {_ENDS.get(body[1:], '')}{_BODIES[body[0]]}"
-    return Variable(
+    return FmuVariable(
         name=name, description=description, causality="output", unit=unit, shown=shown, start=0.0, nominal=1e-3
     )
 
 
-def _derivative(state: Variable, reference: int) -> Variable:
+def _derivative(state: FmuVariable, reference: int) -> FmuVariable:
     rate = state.name.endswith("_velocity")
-    return Variable(
+    return FmuVariable(
         name=f"der({state.name})",
         description=f"time derivative of {state.name}",
         causality="local",
@@ -162,12 +164,12 @@ def _derivative(state: Variable, reference: int) -> Variable:
     )
 
 
-def _output(name: str) -> Variable:
+def _output(name: str) -> FmuVariable:
     new = OLD_OUTPUTS.get(name, name)
     if new in _OUTPUTS:
         unit, shown, text = _OUTPUTS[new]
         text = text if new == name else f"old name of {new}"
-        return Variable(name=name, description=text, causality="output", unit=unit, shown=shown)
+        return FmuVariable(name=name, description=text, causality="output", unit=unit, shown=shown)
     x = _coordinate(name.removesuffix("_acceleration"))
     text = x.description.replace("displacement", "acceleration").replace("yaw angle", "yaw acceleration")
     return replace(x, name=name, description=text, unit=f"{x.unit}/s²", shown="", start=None, nominal=None)

@@ -14,12 +14,11 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.many import library_cache
 from yawdesign.hunting.many.commands import run
 
-Float = NDArray[np.float64]
 Run = Callable[[Sequence[Float], Float, int, int], None]
 
 WIDTH = 8  # points in a vector

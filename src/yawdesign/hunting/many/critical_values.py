@@ -13,18 +13,14 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from yawdesign.hunting.arrays import Bools, Float, Index
 from yawdesign.hunting.exact import ExactValues, NotDecidedError, exact_critical_values
 from yawdesign.hunting.many import counts as kernels
 from yawdesign.hunting.many.parameter_sets import Block
 from yawdesign.hunting.many.root_isolation import isolate
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.vehicle.polynomials import even_odd
-
-Float = NDArray[np.float64]
-Bools = NDArray[np.bool_]
-Ints = NDArray[np.intp]
 
 ACCURATE = 5e-9  # largest relative error of a critical value that rounding may cause
 ROUNDING = 2e-15  # of the coefficients
@@ -125,7 +121,7 @@ class _Parts(NamedTuple):
     even_b: Float
     odd_b: Float
 
-    def of(self, owner: Ints) -> "_Parts":
+    def of(self, owner: Index) -> "_Parts":
         return _Parts(*(np.take(part, owner, axis=1) for part in self))
 
 
@@ -135,7 +131,7 @@ class _Sizes:
     def __init__(self, A: Float, B: Float) -> None:
         self._parts = [np.abs(half) for p in (A, B) for half in (p[::2], p[1::2])]
 
-    def at(self, owner: Ints, x: Float) -> Float:
+    def at(self, owner: Index, x: Float) -> Float:
         """Return the size of some polynomials, each at a place of its own."""
         return self._product([_value(part[:, owner], x) for part in self._parts])
 
@@ -152,7 +148,7 @@ class _Sizes:
 class _Crossings(NamedTuple):
     """Roots on the imaginary axis: whose they are, where, which way they go, and their largest relative errors."""
 
-    owner: Ints
+    owner: Index
     C_s: Float
     omega: Float
     direction: Float
@@ -188,7 +184,7 @@ def in_double_precision(block: Block, *, kind: str, equations: str) -> tuple[Cri
     return CriticalField(critical, omega, unstable, none, none), right & ~doubtful & ~isolated.undecided
 
 
-def _crossings(A: Float, B: Float, owner: Ints, x: Float) -> _Crossings:
+def _crossings(A: Float, B: Float, owner: Index, x: Float) -> _Crossings:
     """Return what belongs to the roots x = w^2 whose damping is positive."""
     parts = _Parts(*(np.array(half) for p in (A, B) for half in even_odd(tuple(p)))).of(owner)
     ea, oa, eb, ob = (_value(part, x) for part in parts)
@@ -279,7 +275,7 @@ class Rows:
         Number of points.
     """
 
-    def __init__(self, owner: Ints, key: Float, n: int) -> None:
+    def __init__(self, owner: Index, key: Float, n: int) -> None:
         self._order = np.lexsort((key, owner))
         self._owner = owner[self._order]
         self.count = np.bincount(owner, minlength=n)

@@ -5,9 +5,8 @@ from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Float = NDArray[np.float64]
+from yawdesign.hunting.arrays import Float
 
 
 class Step(NamedTuple):

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-Float = NDArray[np.float64]
+from yawdesign.hunting.arrays import Float
 
 CELLS = 28
 RANGE = (1e-4, 1e4)  # of the variable, in cells spaced geometrically; two more cells reach from zero and to infinity

@@ -12,13 +12,12 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
+from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.many import compiled
 from yawdesign.hunting.many.compiled import Run
 from yawdesign.hunting.many.program import Program, Step
 
-Float = NDArray[np.float64]
 BLOCK = 8192  # points; long enough that NumPy's calls cost little, and a row still fits the innermost caches
 MANY = 100_000  # points after which a compilation, about half a second, has paid
 

@@ -14,12 +14,11 @@ import scipy.linalg as sl
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
-from yawdesign.hunting.eigenvalues import Complex, Float
+from yawdesign.hunting.arrays import Complex, Float, Index
 from yawdesign.vehicle.assembly import StateSpace, folded
 from yawdesign.vehicle.catalogue import Parameters, bogie
 from yawdesign.vehicle.polynomials import Number
 
-Index = NDArray[np.intp]
 ROUNDING = 1e-13  # relative to the size of the matrix
 
 
@@ -60,7 +59,7 @@ def parts(pattern: NDArray[np.bool_]) -> tuple[Index, ...]:
 
 
 @dataclass(frozen=True)
-class Spectrum:
+class Eigensystem:
     """Eigenvalues of one part of a motion: the real ones falling, those above the real axis, then their conjugates.
 
     Parameters
@@ -90,7 +89,7 @@ class Spectrum:
         return np.asarray(np.einsum("ik,ij,jk->k", self.left, change, self.right))
 
 
-def spectrum(matrix: Float) -> Spectrum:
+def spectrum(matrix: Float) -> Eigensystem:
     """Return the spectrum of a real matrix."""
     s, w, v = cast(tuple[Complex, Complex, Complex], sl.eig(matrix, left=True, right=True))
     _set_zeros(matrix, s, w, v)
@@ -103,7 +102,7 @@ def spectrum(matrix: Float) -> Spectrum:
     w = np.hstack([w[:, real], w[:, above], w[:, above].conj()]).conj()
     scale = np.sum(w * v, axis=0)
     # Where two roots coincide the product vanishes; the vectors then say nothing, but they stay finite.
-    return Spectrum(s, v, np.asarray(w / np.where(scale == 0, 1, scale), dtype=complex), len(real))
+    return Eigensystem(s, v, np.asarray(w / np.where(scale == 0, 1, scale), dtype=complex), len(real))
 
 
 def rounding(matrix: Float) -> float:

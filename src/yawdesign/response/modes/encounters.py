@@ -7,7 +7,7 @@ from itertools import combinations, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign.hunting.eigenvalues import Complex, Float
+from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.response.modes.links import NEAR, Place, follow
 
 CLOSE = 1e-3  # distance of two roots relative to their size at which they are said to pass close by
@@ -52,7 +52,7 @@ class Walk:
     s : ndarray, shape (places, roots)
         Roots, each column one path.
     certainty : ndarray, shape (places - 1, roots)
-        As in `Link`, by path.
+        As in `RootStep`, by path.
     encounters : tuple of Encounter
         In the order in which they happen.
     """

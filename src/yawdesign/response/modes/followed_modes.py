@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign.hunting.eigenvalues import Complex, Float, backward_error
+from yawdesign.hunting.arrays import Complex, Float, Index
+from yawdesign.hunting.eigenvalues import backward_error
 from yawdesign.hunting.verdict import EXACT, given_damping, stability
 from yawdesign.problem import PARAMETERS, Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
@@ -17,7 +18,7 @@ from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import Parameter, as_several
-from yawdesign.response.modes.eigenvectors import Index, Motion, motion, parts
+from yawdesign.response.modes.eigenvectors import Motion, motion, parts
 from yawdesign.response.modes.links import LOST
 from yawdesign.response.modes.named_modes import parameters_at
 from yawdesign.response.modes.names import named_roots

@@ -9,13 +9,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from yawdesign.hunting.eigenvalues import Complex, Float
-from yawdesign.response.modes.eigenvectors import Index, Spectrum
+from yawdesign.hunting.arrays import Complex, Float, Index
+from yawdesign.response.modes.eigenvectors import Eigensystem
 
 DEPENDS = 0.1  # of the largest dependence on the conicity: a root with less is not hunting
 
 
-def conicity_share(change: Float, places: Sequence[Index], found: Sequence[Spectrum]) -> Float:
+def conicity_share(change: Float, places: Sequence[Index], found: Sequence[Eigensystem]) -> Float:
     """Return by how much each root depends on the conicity, |d ln s / d ln lambda|.
 
     Parameters

@@ -21,8 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from yawdesign.hunting.eigenvalues import Complex, Float
-from yawdesign.response.modes.eigenvectors import Index, Spectrum, rounding
+from yawdesign.hunting.arrays import Complex, Float, Index
+from yawdesign.response.modes.eigenvectors import Eigensystem, rounding
 
 DOUBT = 0.25  # largest error of a partner's prediction, relative to that of the next best root
 TURN = 0.5  # cosine of 60 degrees
@@ -36,11 +36,11 @@ class Place:
 
     value: float
     matrix: Float
-    spectrum: Spectrum
+    spectrum: Eigensystem
 
 
 @dataclass(frozen=True)
-class Link:
+class RootStep:
     """Which root of one place is which of the next.
 
     Parameters
@@ -68,7 +68,7 @@ class Link:
     kind: str = ""
 
 
-def follow(start: Place, end: Place, at: Callable[[float], Place], share: float = 1.0) -> list[Link]:
+def follow(start: Place, end: Place, at: Callable[[float], Place], share: float = 1.0) -> list[RootStep]:
     """Return the links from one place to another, through as many places between them as it takes.
 
     Parameters
@@ -90,7 +90,7 @@ def follow(start: Place, end: Place, at: Callable[[float], Place], share: float 
     return follow(start, between_them, at, share / 2) + follow(between_them, end, at, share / 2)
 
 
-def _are_one(start: Place, end: Place, step: Link) -> bool:
+def _are_one(start: Place, end: Place, step: RootStep) -> bool:
     """Return whether the roots in doubt are one within rounding at both ends: no smaller step tells them apart."""
     p, q = start.spectrum.s, end.spectrum.s
     roots = [k for k in step.meeting if p[k].imag >= 0 or q[step.partner[k]].imag >= 0]
@@ -103,7 +103,7 @@ def between(low: float, high: float) -> float:
     return float(np.sqrt(low) * np.sqrt(high)) if low > 0 and high > 0 else (low + high) / 2
 
 
-def link(start: Place, end: Place) -> Link:
+def link(start: Place, end: Place) -> RootStep:
     """Return which root is which at two places, and whether that is sure."""
     p, q = start.spectrum, end.spectrum
     if p.real != q.real:
@@ -115,7 +115,7 @@ def link(start: Place, end: Place) -> Link:
     turned = _turned(p, q, partner)
     alike = _most_alike(p, q)
     doubt = (certainty <= 1 - DOUBT) | turned | ((alike != partner) & (q.s[alike] != q.s[partner]))
-    return Link(
+    return RootStep(
         start.value, end.value, partner, certainty, not doubt.any(), tuple(np.flatnonzero(doubt).tolist()), LOST
     )
 
@@ -124,14 +124,14 @@ def _distance(s: Complex, other: Complex) -> Complex:
     return np.asarray(other[None, :] - s[:, None])
 
 
-def _pairs(p: Spectrum, error: Float) -> Index:
+def _pairs(p: Eigensystem, error: Float) -> Index:
     """Return the partners: real roots keep their order, those above the axis are matched with the least error."""
     above = p.real + (len(p.s) - p.real) // 2
     _, chosen = linear_sum_assignment(error[p.real : above, p.real : above])
     return np.concatenate([np.arange(p.real), chosen + p.real, chosen + above]).astype(np.intp)
 
 
-def _certainty(p: Spectrum, q: Spectrum, error: Float, partner: Index) -> Float:
+def _certainty(p: Eigensystem, q: Eigensystem, error: Float, partner: Index) -> Float:
     """Return how much better each partner is predicted than any other root, seen from both ends."""
     n = np.arange(len(partner))
     own = error[n, partner]
@@ -143,7 +143,7 @@ def _certainty(p: Spectrum, q: Spectrum, error: Float, partner: Index) -> Float:
     return np.asarray(1 - np.minimum(1, own / np.maximum(next_best, np.finfo(float).tiny)))
 
 
-def _turned(p: Spectrum, q: Spectrum, partner: Index) -> NDArray[np.bool_]:
+def _turned(p: Eigensystem, q: Eigensystem, partner: Index) -> NDArray[np.bool_]:
     """Return which roots above the axis turn too far around another one."""
     r, n = p.real, len(p.s)
     above = np.arange(r, r + (n - r) // 2)
@@ -155,7 +155,7 @@ def _turned(p: Spectrum, q: Spectrum, partner: Index) -> NDArray[np.bool_]:
     return out
 
 
-def _most_alike(p: Spectrum, q: Spectrum) -> Index:
+def _most_alike(p: Eigensystem, q: Eigensystem) -> Index:
     """Return for each root the one whose eigenvectors are most like its own.
 
     The products of left and right eigenvectors of two places do not depend on units, and each row of them sums to 1.
@@ -164,7 +164,7 @@ def _most_alike(p: Spectrum, q: Spectrum) -> Index:
     return np.asarray(product.argmax(axis=1), dtype=np.intp)
 
 
-def _at_a_meeting(start: Place, end: Place) -> Link:
+def _at_a_meeting(start: Place, end: Place) -> RootStep:
     """Return the link over a step in which real roots meet, or a conjugate pair arrives at the real axis."""
     p, q = start.spectrum, end.spectrum
     if p.real > q.real:
@@ -176,10 +176,10 @@ def _at_a_meeting(start: Place, end: Place) -> Link:
     certainty = np.ones(len(partner))
     certainty[list(meeting)] = np.nan
     kind = PAIR if p.real > q.real else REAL
-    return Link(start.value, end.value, partner.astype(np.intp), certainty, False, meeting, kind)
+    return RootStep(start.value, end.value, partner.astype(np.intp), certainty, False, meeting, kind)
 
 
-def _merge(p: Spectrum, q: Spectrum) -> tuple[Index, tuple[int, ...]]:
+def _merge(p: Eigensystem, q: Eigensystem) -> tuple[Index, tuple[int, ...]]:
     """Return the partners where neighbouring real roots of p are conjugate pairs in q, and those real roots."""
     lost: list[int] = []
     for _ in range((p.real - q.real) // 2):
@@ -190,11 +190,11 @@ def _merge(p: Spectrum, q: Spectrum) -> tuple[Index, tuple[int, ...]]:
     return _matched_without(p, q, tuple(sorted(lost)))[0], tuple(sorted(lost))
 
 
-def _cost_without(p: Spectrum, q: Spectrum, lost: tuple[int, ...]) -> float:
+def _cost_without(p: Eigensystem, q: Eigensystem, lost: tuple[int, ...]) -> float:
     return _matched_without(p, q, tuple(sorted(lost)))[1]
 
 
-def _matched_without(p: Spectrum, q: Spectrum, lost: tuple[int, ...]) -> tuple[Index, float]:
+def _matched_without(p: Eigensystem, q: Eigensystem, lost: tuple[int, ...]) -> tuple[Index, float]:
     """Return the partners if the given real roots of p are pairs in q, and how far all roots then are apart."""
     kept = [k for k in range(p.real) if k not in lost]
     pairs = list(zip(lost[::2], lost[1::2], strict=True))
@@ -213,7 +213,7 @@ def _matched_without(p: Spectrum, q: Spectrum, lost: tuple[int, ...]) -> tuple[I
     return partner.astype(np.intp), float(cost)
 
 
-def _accepted(p: Spectrum, q: Spectrum, step: Link) -> Link:
+def _accepted(p: Eigensystem, q: Eigensystem, step: RootStep) -> RootStep:
     """Return the last link of a halving that did not end in certainty."""
     if p.real != q.real:
         return step

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg as sl
 
-from yawdesign.hunting.eigenvalues import Complex, Float, backward_error
+from yawdesign.hunting.arrays import Complex, Float
+from yawdesign.hunting.eigenvalues import backward_error
 from yawdesign.hunting.verdict import EXACT, Mode, given_damping, stability
 from yawdesign.problem import Problem
 from yawdesign.problem.result import Result

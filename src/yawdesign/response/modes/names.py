@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from yawdesign.hunting.eigenvalues import Complex, Float
-from yawdesign.response.modes.eigenvectors import Index, Motion, Spectrum, motion, parts, spectrum
+from yawdesign.hunting.arrays import Complex, Float, Index
+from yawdesign.response.modes.eigenvectors import Eigensystem, Motion, motion, parts, spectrum
 from yawdesign.response.modes.hunting_mode import conicity_share, hunting_root
 from yawdesign.vehicle.catalogue import LATERAL_DAMPER, MOTOR_DAMPER, YAW_DAMPER, Parameters
 
@@ -40,7 +40,7 @@ class NamedRoot:
         No other root has it.
     states : ndarray of int
         States of the part of the motion it belongs to.
-    part : Spectrum
+    part : Eigensystem
         The spectrum of that part.
     place : int
         Of the root in that spectrum.
@@ -50,7 +50,7 @@ class NamedRoot:
 
     name: str
     states: Index
-    part: Spectrum
+    part: Eigensystem
     place: int
     conicity: float
 
@@ -84,7 +84,7 @@ def named_roots(p: Parameters, C_s: float, *, kind: str, equations: str) -> tupl
     return system, tuple(roots)
 
 
-def _names(system: Motion, places: Sequence[Index], found: Sequence[Spectrum], conicity: Float) -> dict[int, str]:
+def _names(system: Motion, places: Sequence[Index], found: Sequence[Eigensystem], conicity: Float) -> dict[int, str]:
     """Return the name of each root on the real axis or above it, by its place among all roots."""
     states = [[system.states[i] for i in place] for place in places]
     groups = groups_of(system)
@@ -102,7 +102,7 @@ def _names(system: Motion, places: Sequence[Index], found: Sequence[Spectrum], c
     return dict(zip(upper.tolist(), unique_names(stems, size[upper]), strict=True))
 
 
-def _joined_twins(found: Sequence[Spectrum]) -> Index:
+def _joined_twins(found: Sequence[Eigensystem]) -> Index:
     """Return for each root of all parts together the place of its conjugate."""
     start = np.cumsum([0, *(len(part.s) for part in found)])
     return np.concatenate([part.twin + first for part, first in zip(found, start, strict=False)])
@@ -119,7 +119,7 @@ def groups_of(motion: Motion) -> tuple[str, ...]:
     return tuple(name for name in dict.fromkeys(GROUPS.values()) if name in present)
 
 
-def shares(found: Spectrum, states: Sequence[str], groups: Sequence[str]) -> Float:
+def shares(found: Eigensystem, states: Sequence[str], groups: Sequence[str]) -> Float:
     """Return by how much each group takes part in each mode, shape (groups, modes); columns sum to 1.
 
     The participation of a group is the sum of left times right eigenvector over its states. It does not depend on

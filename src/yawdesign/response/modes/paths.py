@@ -7,8 +7,8 @@ from functools import cache
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from yawdesign.hunting.eigenvalues import Complex, Float
-from yawdesign.response.modes.eigenvectors import Index, Motion, spectrum
+from yawdesign.hunting.arrays import Complex, Float, Index
+from yawdesign.response.modes.eigenvectors import Motion, spectrum
 from yawdesign.response.modes.encounters import Encounter, Walk, walk
 from yawdesign.response.modes.links import LOST, Place
 from yawdesign.response.modes.names import NamedRoot

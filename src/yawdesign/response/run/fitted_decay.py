@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from yawdesign.response.run.system import Float
+from yawdesign.hunting.arrays import Float
 
 SAMPLES = 40  # instants in which the size of the motion is averaged
 MOST_WINDOWS = 1500

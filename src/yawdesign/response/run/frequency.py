@@ -5,12 +5,13 @@ from typing import Any
 
 import numpy as np
 
+from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import Parameter, as_choice, as_several
-from yawdesign.response.run.system import INPUTS, Complex, Float, System, system_at
+from yawdesign.response.run.system import INPUTS, System, system_at
 from yawdesign.vehicle.assembly import polynomial_matrix
 from yawdesign.vehicle.elements import WheelRailContact
 from yawdesign.vehicle.polynomials import evaluate

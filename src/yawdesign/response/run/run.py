@@ -6,14 +6,14 @@ from math import log, pi
 
 import numpy as np
 
-from yawdesign.hunting.eigenvalues import Complex
+from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.response.modes.hunting_mode import hunting_root
 from yawdesign.response.modes.names import named_roots
 from yawdesign.response.run.fitted_decay import fitted_rate
 from yawdesign.response.run.frequency import states
 from yawdesign.response.run.stationary import stationary_rms
-from yawdesign.response.run.system import Float, System
-from yawdesign.response.run.time_history import History, Motion, Plan, move
+from yawdesign.response.run.system import System
+from yawdesign.response.run.time_history import History, Plan, Trajectory, move
 from yawdesign.response.track.named_tracks import AnyTrack
 from yawdesign.response.track.tracks import Clock, RandomTrack
 
@@ -82,7 +82,7 @@ def run(system: System, plan: Plan) -> tuple[Run, History]:
     return _report(system, plan.track, motion, s), motion.history(system)
 
 
-def _report(system: System, track: AnyTrack, motion: Motion, s: Complex) -> Run:
+def _report(system: System, track: AnyTrack, motion: Trajectory, s: Complex) -> Run:
     abscissa, clock = float(s.real.max()), motion.clock
     rate, _ = fitted_rate(motion.transition, clock.step, len(system.coordinates), _slowest(s))
     rms = _named(system, np.sqrt(np.mean(motion.y**2, axis=0)))

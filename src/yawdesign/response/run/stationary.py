@@ -6,11 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from yawdesign.hunting.arrays import Float
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
 from yawdesign.response.run.frequency import one_speed, outputs
-from yawdesign.response.run.system import INPUTS, Float, System, system_at
+from yawdesign.response.run.system import INPUTS, System, system_at
 from yawdesign.response.track.named_tracks import as_track
 from yawdesign.response.track.tracks import POINTS, WEIGHTS, RandomTrack
 

@@ -7,17 +7,14 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem
 from yawdesign.vehicle.assembly import StateSpace, physical
 from yawdesign.vehicle.catalogue import YAW_DAMPER, bogie
 from yawdesign.vehicle.elements import Link, Mass, Single, WheelRailContact
 from yawdesign.vehicle.signals import DAMPERS, PAIR_FORCE, YAW_DISPLACEMENT, acceleration, of_damper, velocity
-
-Float = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 INPUTS = ("alignment", "cross_level")
 

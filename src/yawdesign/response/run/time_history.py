@@ -5,10 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from yawdesign.hunting.arrays import Float
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import unknown_key
 from yawdesign.response.run.frequency import states
-from yawdesign.response.run.system import Float, System
+from yawdesign.response.run.system import System
 from yawdesign.response.run.time_steps import (
     clock_of,
     first_order_hold,
@@ -91,7 +92,7 @@ class Plan:
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class Trajectory:
     """A motion, step by step.
 
     Parameters
@@ -119,7 +120,7 @@ class Motion:
         return History(system.v, self.clock.time, self.clock.time * system.v, values)
 
 
-def move(system: System, plan: Plan, abscissa: float) -> Motion:
+def move(system: System, plan: Plan, abscissa: float) -> Trajectory:
     """Return the motion of a bogie with a given spectral abscissa [1/s] over a track."""
     clock = planned_clock(system, plan, abscissa)
     hold = first_order_hold(system.A, system.B, clock.step)
@@ -128,7 +129,7 @@ def move(system: System, plan: Plan, abscissa: float) -> Motion:
     start = "rest" if plan.start == "stationary" and abscissa >= 0 else plan.start
     x = _first_state(system, plan, start, hold.transition, force, u, lines)
     y = march(hold.transition, force, x) @ system.C.T + u @ system.D.T
-    return Motion(start, clock, hold.transition, u, y)
+    return Trajectory(start, clock, hold.transition, u, y)
 
 
 def planned_clock(system: System, plan: Plan, abscissa: float) -> Clock:

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import expm
 
+from yawdesign.hunting.arrays import Float
 from yawdesign.problem import ProblemError
 from yawdesign.response.run.frequency import states
-from yawdesign.response.run.system import Float, System
+from yawdesign.response.run.system import System
 from yawdesign.response.track.tracks import Clock, Lines
 
 PER_PERIOD = 10  # instants in the period of the fastest motion, at least

@@ -5,12 +5,13 @@ from os import PathLike
 
 import numpy as np
 
+from yawdesign.hunting.arrays import Float
 from yawdesign.problem import ProblemError
 from yawdesign.problem.arguments import checked
 from yawdesign.problem.diagnostics import Diagnostic
 from yawdesign.problem.quantities import to_unit
 from yawdesign.problem.units import parse_unit
-from yawdesign.response.run.system import Float, System
+from yawdesign.response.run.system import System
 from yawdesign.response.track.text_columns import Column, Table, read_columns
 from yawdesign.response.track.text_sheets import Sheet, read_sheet, report
 from yawdesign.response.track.tracks import Clock

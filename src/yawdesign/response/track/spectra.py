@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from yawdesign.hunting.arrays import Float
 from yawdesign.problem import ProblemError
 from yawdesign.problem.arguments import checked
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
-from yawdesign.response.run.system import Float
 from yawdesign.response.track.text_cells import number
 
 Density = Callable[[Float], Float]

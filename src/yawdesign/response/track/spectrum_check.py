@@ -5,12 +5,13 @@ from typing import Any
 
 import numpy as np
 
+from yawdesign.hunting.arrays import Float
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_choice, as_quantity, as_seed
-from yawdesign.response.run.system import INPUTS, Float
+from yawdesign.response.run.system import INPUTS
 from yawdesign.response.run.time_steps import MOST_STEPS
 from yawdesign.response.track.named_tracks import as_track
 from yawdesign.response.track.tracks import Clock, RandomTrack, synthesise

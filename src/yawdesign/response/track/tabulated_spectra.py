@@ -11,10 +11,10 @@ from types import MappingProxyType
 
 import numpy as np
 
+from yawdesign.hunting.arrays import Float
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import Diagnostic, nearest
 from yawdesign.problem.units import Dimension, parse_unit
-from yawdesign.response.run.system import Float
 from yawdesign.response.track.spectra import Spectrum, Tabulated
 from yawdesign.response.track.text_columns import Column, Table, read_columns
 from yawdesign.response.track.text_sheets import Heading, Sheet, read_sheet, report

@@ -6,9 +6,9 @@ from math import isinf
 
 import numpy as np
 
+from yawdesign.hunting.arrays import Float
 from yawdesign.problem.diagnostics import Diagnostic, ProblemError, nearest
 from yawdesign.problem.units import kind_of, parse_unit, shortened
-from yawdesign.response.run.system import Float
 from yawdesign.response.track.text_cells import chainage, comma_mistake, number
 from yawdesign.response.track.text_sheets import KM_M, Fields, Heading, Sheet, is_chainage, report
 

@@ -5,13 +5,14 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.problem import ProblemError
 from yawdesign.problem.arguments import checked, named
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.quantities import parse_quantity
 from yawdesign.problem.table import as_choice, as_quantity
 from yawdesign.response.run.frequency import WAVELENGTH
-from yawdesign.response.run.system import INPUTS, Complex, Float, System
+from yawdesign.response.run.system import INPUTS, System
 from yawdesign.response.track.spectra import Spectrum
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(6)
