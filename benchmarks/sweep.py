@@ -26,7 +26,7 @@ from yawdesign.hunting.many import compiled
 from yawdesign.hunting.many import counts as kernels
 from yawdesign.study.answers import evaluate
 from yawdesign.study.question import Question
-from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.old import characteristic
 from yawdesign.vehicle.polynomials import add, even_odd, multiply, scale, scale_variable
 
 MODEL = {"kind": "power", "equations": "as-printed"}

@@ -13,8 +13,7 @@ from scipy.linalg import expm
 
 import yawdesign as yd
 from yawdesign.hunting.eigenvalues import state_matrix
-from yawdesign.vehicle.assembly import StateSpace, physical
-from yawdesign.vehicle.catalogue import bogie
+from yawdesign.vehicle.old import StateSpace, bogie, physical
 
 TOLERANCE = 1e-6  # of the largest value; CVode is asked for 1e-9 in every step
 INPUTS = ("alignment_1", "cross_level_1", "alignment_2", "cross_level_2")

@@ -18,9 +18,7 @@ from yawdesign.hunting.critical_damping import critical_damping
 from yawdesign.hunting.eigenvalues import core_eigenvalues, damping_ratio, decay_rate, eigenvalues, state_matrix
 from yawdesign.hunting.hurwitz import hurwitz_minors
 from yawdesign.hunting.routh import routh_column, sector_column
-from yawdesign.vehicle.assembly import StateSpace, physical
-from yawdesign.vehicle.catalogue import bogie
-from yawdesign.vehicle.motions import characteristic, paper_coefficients
+from yawdesign.vehicle.old import StateSpace, bogie, characteristic, paper_coefficients, physical
 from yawdesign.vehicle.polynomials import scale_variable, shift
 
 NAMES = (

@@ -6,7 +6,7 @@ import pytest
 from yawdesign.hunting import boundary as graphs
 from yawdesign.hunting.critical_damping import critical_damping
 from yawdesign.hunting.routh import routh_column
-from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.old import characteristic
 from yawdesign.vehicle.polynomials import scale_variable
 
 # d ln C_sl / d ln p of the model as printed at 300 km/h, to the digits that are known

@@ -10,7 +10,7 @@ import pytest
 from yawdesign.hunting import certificate
 from yawdesign.hunting.certificate import certify, critical_values, hurwitz_polynomial, positive_roots, unstable_roots
 from yawdesign.problem import Written
-from yawdesign.vehicle.motions import Characteristic, characteristic, paper_coefficients
+from yawdesign.vehicle.old import Characteristic, characteristic, paper_coefficients
 from yawdesign.vehicle.polynomials import product
 
 PRINTED = {"kind": "power", "equations": "as-printed"}

@@ -12,7 +12,7 @@ from yawdesign.hunting.eigenvalues import core_matrix
 from yawdesign.hunting.many.critical_values import critical_field
 from yawdesign.hunting.many.parameter_sets import Block
 from yawdesign.hunting.routh import count_unstable
-from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.old import characteristic
 
 
 def test_reference_bogies(case, of_case):

@@ -15,7 +15,7 @@ from yawdesign.hunting.eigenvalues import (
     roots,
     state_matrix,
 )
-from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.old import characteristic
 
 PRINTED = {"kind": "power", "equations": "as-printed"}
 

@@ -8,7 +8,7 @@ import pytest
 from yawdesign.hunting import exact
 from yawdesign.hunting.certificate import certify
 from yawdesign.hunting.exact import NotDecidedError, exact_critical_values
-from yawdesign.vehicle.motions import Characteristic
+from yawdesign.vehicle.old import Characteristic
 from yawdesign.vehicle.polynomials import product
 
 

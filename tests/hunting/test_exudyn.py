@@ -27,8 +27,7 @@ from exudyn.itemInterface import (
 from scipy.optimize import linear_sum_assignment
 
 from yawdesign.hunting.eigenvalues import state_matrix
-from yawdesign.vehicle.assembly import StateSpace, physical
-from yawdesign.vehicle.catalogue import bogie
+from yawdesign.vehicle.old import StateSpace, bogie, physical
 
 ENDS, SIDES = (1, -1), (1, -1)  # front and rear, left and right
 X, Y = 0, 1

@@ -8,7 +8,7 @@ import pytest
 
 from yawdesign.hunting import boundary as graphs
 from yawdesign.hunting.hurwitz import hurwitz_minors
-from yawdesign.vehicle.motions import paper_coefficients
+from yawdesign.vehicle.old import paper_coefficients
 
 
 def exact_minors(chi):

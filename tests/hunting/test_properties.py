@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from yawdesign.hunting.critical_damping import critical_damping
 from yawdesign.hunting.eigenvalues import core_matrix, state_matrix
-from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.old import characteristic
 
 MODELS = st.sampled_from([("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal")]).map(
     lambda m: {"kind": m[0], "equations": m[1]}

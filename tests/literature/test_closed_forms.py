@@ -11,9 +11,8 @@ import pytest
 from scipy.optimize import brentq
 
 from yawdesign.hunting.eigenvalues import core_matrix
-from yawdesign.vehicle.assembly import StateSpace
 from yawdesign.vehicle.elements import Link, Mass, Spring, WheelRailContact
-from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.old import StateSpace, characteristic
 
 # m, I, k_y, k_psi, f_11, f_22, b, lambda, r, W; then the critical frequency [Hz] and speed [m/s]
 PAPER_LIKE = {"m": 3085.0, "I": 2024.0, "k_y": 1e6, "k_psi": 1.21e6, "f_11": 11.511e6, "f_22": 11.511e6, "b": 0.7465}

@@ -8,9 +8,10 @@ import pytest
 from scipy.optimize import brentq
 
 from yawdesign.hunting.routh import decays_faster
-from yawdesign.vehicle.assembly import StateSpace, folded, physical, polynomial_matrix
+from yawdesign.vehicle.assembly import polynomial_matrix
+from yawdesign.vehicle.determinant import Determinant
 from yawdesign.vehicle.elements import Dashpot, Link, Mass, Pair, Spring, WheelRailContact
-from yawdesign.vehicle.polynomials import Determinant
+from yawdesign.vehicle.old import StateSpace, folded, physical
 
 M_W, M_F, I_W, I_FY, I_FR = 1022.0, 2918.0, 678.0, 6780.0, 6780.0
 K1, K2, K3, K4, K5, K6 = 1.823e6, 3.646e6, 3.646e6, 182.3e3, 333.3e3, 2.710e6

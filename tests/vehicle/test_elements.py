@@ -5,10 +5,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from yawdesign.vehicle.assembly import StateSpace, folded, physical, polynomial_matrix
-from yawdesign.vehicle.catalogue import bogie
+from yawdesign.vehicle.assembly import polynomial_matrix
+from yawdesign.vehicle.determinant import Determinant
 from yawdesign.vehicle.elements import Dashpot, Link, Mass, Maxwell, Pair, Spring, WheelRailContact, parallel
-from yawdesign.vehicle.polynomials import Determinant, evaluate, scale_variable, trim
+from yawdesign.vehicle.old import StateSpace, bogie, folded, physical
+from yawdesign.vehicle.polynomials import evaluate, scale_variable, trim
 
 
 def determinant(elements):
@@ -111,7 +112,9 @@ def frame():
 
 
 def test_ends_mirror_their_levers():
-    front, rear = ([e for e in pair().ends() if isinstance(e, Link) and e.name == name] for name in ("box1", "box2"))
+    front, rear = (
+        [e for e in pair().both_ends() if isinstance(e, Link) and e.name == name] for name in ("box 1", "box 2")
+    )
     assert front[0].displacement == {"Y": 1, "y1": -1, "tilt": -0.4, "P": 1.25}
     assert rear[0].displacement == {"Y": 1, "y2": -1, "tilt": -0.4, "P": -1.25}
 
@@ -119,7 +122,7 @@ def test_ends_mirror_their_levers():
 def test_a_link_is_found_by_its_name():
     for arrange, suffixes in ((physical, "12"), (folded, "+-")):
         names = [e.name for e in arrange([pair()]) if isinstance(e, Link) and e.name]
-        assert names == [f"box{suffix}" for suffix in suffixes]
+        assert names == [f"box {suffix}" for suffix in suffixes]
 
 
 def test_a_folded_pair_has_the_physical_determinant_and_eigenvalues():

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from yawdesign.hunting.eigenvalues import state_matrix
-from yawdesign.vehicle.assembly import StateSpace, physical, polynomial_matrix
-from yawdesign.vehicle.catalogue import bogie
+from yawdesign.vehicle.assembly import polynomial_matrix
 from yawdesign.vehicle.elements import Mass
-from yawdesign.vehicle.motions import characteristic, paper_coefficients
+from yawdesign.vehicle.old import StateSpace, bogie, characteristic, paper_coefficients, physical
 from yawdesign.vehicle.polynomials import evaluate, scale_variable
 
 

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from yawdesign.vehicle import polynomials as poly
+from yawdesign.vehicle.determinant import Determinant
 
 rationals = st.fractions(-100, 100, max_denominator=50)
 polynomials = st.lists(rationals, max_size=6).map(tuple)
@@ -98,14 +99,14 @@ def sparse(matrix):
 @settings(max_examples=100, deadline=None)
 @given(matrices)
 def test_determinant_is_that_of_leibniz(matrix):
-    determinant = poly.Determinant(sparse(matrix))
+    determinant = Determinant(sparse(matrix))
     assert same(determinant.of(determinant.nodes), leibniz(matrix))
 
 
 @settings(max_examples=60, deadline=None)
 @given(matrices)
 def test_factors_multiply_to_the_determinant(matrix):
-    determinant = poly.Determinant(sparse(matrix))
+    determinant = Determinant(sparse(matrix))
     pieces = determinant.factors(determinant.nodes)
     assert frozenset().union(*pieces) == determinant.nodes
     assert sum(map(len, pieces)) == len(determinant.nodes)
@@ -115,7 +116,7 @@ def test_factors_multiply_to_the_determinant(matrix):
 def test_rooted_replaces_one_diagonal_entry():
     matrix = {(i, j): (Fraction(1 + 3 * i + j * j),) for i in range(3) for j in range(3)}
     other = {**matrix, (1, 1): (Fraction(7), Fraction(1))}
-    determinant = poly.Determinant(matrix)
+    determinant = Determinant(matrix)
     found = determinant.rooted(1, determinant.nodes, other[1, 1])
     assert same(found, leibniz([[other[i, j] for j in range(3)] for i in range(3)]))
 

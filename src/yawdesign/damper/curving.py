@@ -6,6 +6,7 @@ at the rate L V_r / (2 R l). The moment that resists is
 """
 
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 from yawdesign.problem import PARAMETERS, Curve, format_quantity
 from yawdesign.vehicle.catalogue import Parameters
@@ -18,7 +19,7 @@ RAISING = frozenset({"C_s", "C_t", "K_2x", "b_0", "b_2", "b_3"})
 LOWERING = frozenset({"W", "a"})
 
 
-def resisting_moment(p: Parameters, C_s: Number, curve: Curve) -> Number:
+def resisting_moment(p: Parameters, C_s: Number, curve: Curve) -> Any:
     """Return the moment T that resists the bogie's rotation [N m], of any number type."""
     angle = curve.L / (2 * curve.R)
     rate = angle * curve.V_r / curve.l
@@ -26,12 +27,12 @@ def resisting_moment(p: Parameters, C_s: Number, curve: Curve) -> Number:
     return damping * rate + p["K_2x"] * p["b_2"] * p["b_2"] * angle
 
 
-def resistance_scale(p: Parameters, curve: Curve) -> Number:
+def resistance_scale(p: Parameters, curve: Curve) -> Any:
     """Return 4 Q a [N m] with the load that the curve names."""
     return p["W"] * p["a"] * (4 if curve.load == "axle" else 2)
 
 
-def rotational_resistance(p: Parameters, C_s: Number, curve: Curve) -> Number:
+def rotational_resistance(p: Parameters, C_s: Number, curve: Curve) -> Any:
     """Return T / (4 Q a) of eq. (13) [-].
 
     Parameters
@@ -46,7 +47,7 @@ def rotational_resistance(p: Parameters, C_s: Number, curve: Curve) -> Number:
     return resisting_moment(p, C_s, curve) / resistance_scale(p, curve)
 
 
-def curving_limit(p: Parameters, curve: Curve) -> Number:
+def curving_limit(p: Parameters, curve: Curve) -> Any:
     """Return C_su of eq. (14) [N s/m], the damping with which T / (4 Q a) reaches the curve's limit; maybe negative.
 
     Examples

@@ -19,7 +19,7 @@ from yawdesign.hunting.routh import damped_more, decays_faster
 from yawdesign.hunting.verdict import fixed_factors
 from yawdesign.problem import PARAMETERS, Curve, Problem
 from yawdesign.problem.conditions import Condition, conditions
-from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.old import characteristic
 
 Values = dict[str, Any]
 

@@ -13,7 +13,7 @@ from yawdesign.hunting.verdict import stability_at, undamped_roots
 from yawdesign.problem import Problem
 from yawdesign.problem.conditions import conditions
 from yawdesign.problem.result import Result
-from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.old import characteristic
 
 GOLDEN = 0.382
 

@@ -18,7 +18,7 @@ from yawdesign.damper.design_space import Space, between, fraction, rigid_joints
 from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.eigenvalues import roots
 from yawdesign.hunting.routh import TIME_UNIT
-from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.old import characteristic
 from yawdesign.vehicle.polynomials import Polynomial, product, scale_variable, shift, trim
 
 OPTIONS: Mapping[str, Any] = {

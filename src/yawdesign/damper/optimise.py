@@ -17,7 +17,7 @@ from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.hunting.verdict import Mode, Stability, stability_at
 from yawdesign.problem import Curve, Problem, ProblemError
 from yawdesign.problem.table import as_seed
-from yawdesign.vehicle.motions import paper_coefficients
+from yawdesign.vehicle.old import paper_coefficients
 from yawdesign.vehicle.polynomials import trim
 
 TURNS = ((6, 1e-3), (2, 1e-5))  # number of starts of the NLP, radius of the refinement after it

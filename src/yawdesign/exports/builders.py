@@ -17,10 +17,8 @@ from yawdesign.hunting.routh import TIME_UNIT, sector_column
 from yawdesign.hunting.routh import routh_column as generic_column
 from yawdesign.problem import ProblemError
 from yawdesign.problem.running import CURVE
-from yawdesign.vehicle.assembly import folded
-from yawdesign.vehicle.catalogue import bogie
 from yawdesign.vehicle.elements import Mass, Maxwell
-from yawdesign.vehicle.motions import Characteristic, characteristic, paper_coefficients
+from yawdesign.vehicle.old import Characteristic, bogie, characteristic, folded, paper_coefficients
 from yawdesign.vehicle.polynomials import Polynomial, product, scale_variable, shift, trim
 
 IN_SCALE = "in s / (100 rad/s)"

@@ -8,7 +8,7 @@ from yawdesign.exports.functions import Documented, work_sizes
 from yawdesign.exports.names import ExportNames
 from yawdesign.exports.ports import Port
 from yawdesign.exports.templates import EXAMPLE, HEADER, MAKEFILE, SELF_TEST
-from yawdesign.output.texts import printable
+from yawdesign.problem.characters import printable
 
 
 def ascii_text(text: str) -> str:

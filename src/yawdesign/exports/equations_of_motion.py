@@ -7,9 +7,9 @@ import casadi as ca
 
 from yawdesign.exports.functions import c_source, work_sizes
 from yawdesign.exports.states import state_names, state_space_matrices
-from yawdesign.vehicle.assembly import StateSpace, physical
-from yawdesign.vehicle.catalogue import YAW_DAMPER, Parameters, bogie
-from yawdesign.vehicle.signals import DAMPERS, OLD_OUTPUTS, YAW_FORCE, SignalNames, acceleration
+from yawdesign.vehicle.catalogue import Parameters
+from yawdesign.vehicle.old import DAMPERS, YAW_DAMPER, YAW_FORCE, StateSpace, bogie, physical
+from yawdesign.vehicle.signals import OLD_OUTPUTS, SignalNames, acceleration
 
 # A damper in series with its joints: without damping it has no force, and its dashpot no equation.
 IN_SERIES = ("C_s", "C_t", "C_m")

@@ -6,8 +6,8 @@ import numpy as np
 
 from yawdesign.exports.parcel import Parcel, Unavailable
 from yawdesign.exports.state_space import state_space
-from yawdesign.output.texts import printable
 from yawdesign.problem import ProblemError
+from yawdesign.problem.characters import printable
 
 STATE_SPACE = "state_space.mat"
 

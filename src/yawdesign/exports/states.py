@@ -6,11 +6,11 @@ from typing import Any
 
 import casadi as ca
 
-from yawdesign.vehicle.assembly import StateSpace, physical
-from yawdesign.vehicle.catalogue import YAW_DAMPER, Parameters, bogie
+from yawdesign.vehicle.catalogue import Parameters
 from yawdesign.vehicle.elements import Link, Maxwell, Single
+from yawdesign.vehicle.old import PAIR_FORCE, YAW_DAMPER, YAW_DISPLACEMENT, StateSpace, bogie, physical, unit_of
 from yawdesign.vehicle.polynomials import Number
-from yawdesign.vehicle.signals import PAIR_FORCE, YAW_DISPLACEMENT, SignalNames, of_damper, unit_of, velocity
+from yawdesign.vehicle.signals import SignalNames, of_damper, velocity
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ def state_space_matrices(p: Parameters, C_s: Number, model: Mapping[str, str]) -
     }
 
 
-def _filled(matrix: ca.SX, entries: Mapping[tuple[int, int], Number]) -> ca.SX:
+def _filled(matrix: ca.SX, entries: Mapping[tuple[int, int], Any]) -> ca.SX:
     for (row, column), value in entries.items():
         matrix[row, column] = value
     return matrix

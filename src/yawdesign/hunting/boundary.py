@@ -14,7 +14,7 @@ from yawdesign.hunting.hurwitz import hurwitz_minors as generic_minors
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.hunting.routh import routh_column as generic_column
 from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.motions import characteristic, paper_coefficients
+from yawdesign.vehicle.old import characteristic, paper_coefficients
 from yawdesign.vehicle.polynomials import Polynomial, evaluate, scale_variable
 
 Names = tuple[str, ...]

@@ -14,7 +14,7 @@ from typing import Any
 
 from yawdesign.problem import exact
 from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.motions import characteristic, paper_coefficients
+from yawdesign.vehicle.old import characteristic, paper_coefficients
 from yawdesign.vehicle.polynomials import Polynomial, add, evaluate, even_odd, multiply, scale, trim
 
 # Bits of the first and the last attempt, and how many must be proved of every result. A double has 53.

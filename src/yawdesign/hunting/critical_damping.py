@@ -17,7 +17,7 @@ from yawdesign.hunting.many.critical_values import CriticalField, critical_field
 from yawdesign.hunting.many.parameter_sets import Block
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.motions import Characteristic, characteristic
+from yawdesign.vehicle.old import Characteristic, characteristic
 
 Interval = tuple[float, float]
 

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.hunting.routh import TIME_UNIT
-from yawdesign.vehicle.assembly import StateSpace, folded, physical
-from yawdesign.vehicle.catalogue import Parameters, bogie
+from yawdesign.vehicle.catalogue import Parameters
 from yawdesign.vehicle.elements import Link, Mass, Single, WheelRailContact
+from yawdesign.vehicle.old import StateSpace, bogie, folded, physical
 from yawdesign.vehicle.polynomials import Number, Polynomial, derivative, evaluate, scale_variable
 
 

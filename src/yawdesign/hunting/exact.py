@@ -15,7 +15,7 @@ from itertools import pairwise
 from yawdesign.hunting.routh import routh_column
 from yawdesign.problem import exact
 from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.motions import Characteristic, characteristic
+from yawdesign.vehicle.old import Characteristic, characteristic
 from yawdesign.vehicle.polynomials import Polynomial, add, derivative, even_odd, multiply, scale, trim
 
 FIRST_DIGITS, LAST_DIGITS = 50, 1600

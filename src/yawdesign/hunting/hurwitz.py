@@ -11,12 +11,9 @@ from typing import Any
 import numpy as np
 
 from yawdesign.hunting.routh import TIME_UNIT, routh_column
-from yawdesign.vehicle.polynomials import Number
 
 
-def hurwitz_minors(
-    chi: Sequence[Number], unit: float = TIME_UNIT, functions: Any = np
-) -> tuple[list[Number], list[Number]]:
+def hurwitz_minors(chi: Sequence[Any], unit: float = TIME_UNIT, functions: Any = np) -> tuple[list[Any], list[Any]]:
     """Return signs and decimal logarithms of the Hurwitz minors.
 
     Parameters

@@ -17,7 +17,7 @@ from yawdesign.vehicle.polynomials import Number, Polynomial, plus, scale_variab
 TIME_UNIT = 100.0  # rad/s; in this unit a bogie's coefficients span ten powers of ten instead of 46
 
 
-def _remainder(upper: Sequence[Number], lower: Sequence[Number]) -> list[Number]:
+def _remainder(upper: Sequence[Any], lower: Sequence[Any]) -> list[Any]:
     """Return quotient * lower - upper, where the linear quotient cancels the two highest powers (highest first)."""
     alpha = _divide(upper[0], lower[0])
     beta = _divide(plus(upper[1], times(-1, times(alpha, lower[1] if len(lower) > 1 else 0))), lower[0])
@@ -28,7 +28,7 @@ def _remainder(upper: Sequence[Number], lower: Sequence[Number]) -> list[Number]
     return out
 
 
-def _divide(x: Number, y: Number) -> Number:
+def _divide(x: Number, y: Number) -> Any:
     if type(x) is int and x == 0:
         return 0
     try:
@@ -37,7 +37,7 @@ def _divide(x: Number, y: Number) -> Number:
         return math.nan
 
 
-def _rows(upper: list[Number], lower: list[Number]) -> list[list[Number]]:
+def _rows(upper: list[Any], lower: list[Any]) -> list[list[Any]]:
     """Return the Sturm chain that begins with two polynomials (highest power first)."""
     rows = [upper]
     while lower:
@@ -46,7 +46,7 @@ def _rows(upper: list[Number], lower: list[Number]) -> list[list[Number]]:
     return rows
 
 
-def routh_column(p: Polynomial) -> list[Number]:
+def routh_column(p: Polynomial) -> list[Any]:
     """Return the first column of Routh's array of a real polynomial.
 
     Parameters
@@ -67,7 +67,7 @@ def routh_column(p: Polynomial) -> list[Number]:
     return [row[0] for row in routh_rows(p)]
 
 
-def routh_rows(p: Polynomial) -> list[list[Number]]:
+def routh_rows(p: Polynomial) -> list[list[Any]]:
     """Return Routh's array of a real polynomial, lowest power first, with its zeros.
 
     Each entry of a row stands above the entries it is multiplied with: the first one of row k + 2 is a multiple of the
@@ -81,7 +81,7 @@ def routh_rows(p: Polynomial) -> list[list[Number]]:
     return _rows(upper, lower)
 
 
-def sector_column(p: Polynomial, zeta: Number, functions: Any = np) -> list[Number]:
+def sector_column(p: Polynomial, zeta: Number, functions: Any = np) -> list[Any]:
     """Return a chain that is positive exactly if every root of p has a damping ratio above zeta.
 
     The polynomial is turned by asin(zeta), which brings the sector's edge onto the imaginary axis; since roots come in
@@ -103,7 +103,7 @@ def sector_column(p: Polynomial, zeta: Number, functions: Any = np) -> list[Numb
     return [row[0] for row in _rows(upper, lower[1:])]
 
 
-def is_stable(column: Sequence[Number]) -> NDArray[np.bool_]:
+def is_stable(column: Sequence[Any]) -> NDArray[np.bool_]:
     """Return where all entries of a Routh column of numbers or arrays are positive."""
     verdict = np.asarray(column[0] > 0)
     for entry in column[1:]:

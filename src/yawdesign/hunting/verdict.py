@@ -22,7 +22,7 @@ from yawdesign.hunting.routh import count_unstable
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.result import Result
 from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.motions import DAMPER_FACTOR, Characteristic, characteristic
+from yawdesign.vehicle.old import DAMPER_FACTOR, Characteristic, characteristic
 from yawdesign.vehicle.polynomials import Polynomial, product
 
 EXACT = 1e-9  # largest backward error with which an eigenvalue counts as a root of the characteristic polynomial

@@ -44,3 +44,14 @@ def visible(text: str) -> str:
     'a\\x07'
     """
     return "".join(char.encode("unicode_escape").decode() if is_refused(char) else char for char in text)
+
+
+def printable(text: str) -> str:
+    r"""Return a text on one line, with a blank for each character that cannot be printed.
+
+    Examples
+    --------
+    >>> printable("a\tbogie\x07, µ = 0.3")
+    'a bogie , µ = 0.3'
+    """
+    return "".join(char if char.isprintable() else " " for char in text)

@@ -10,11 +10,9 @@ from typing import Any
 
 from yawdesign.vehicle.elements import (
     Dashpot,
-    Element,
     Link,
     Mass,
     Maxwell,
-    Pair,
     Single,
     Spring,
     WheelRailContact,
@@ -23,17 +21,7 @@ from yawdesign.vehicle.elements import (
 from yawdesign.vehicle.polynomials import Number, Polynomial, add, plus, scale, times
 
 Entries = dict[tuple[Any, Any], Polynomial]
-StateEntries = dict[tuple[int, int], Number]
-
-
-def physical(elements: Iterable[Element]) -> list[Single]:
-    """Return the elements in the coordinates of each end (y_w1, y_w2, ...)."""
-    return [s for e in elements for s in (e.ends() if isinstance(e, Pair) else [e])]
-
-
-def folded(elements: Iterable[Element]) -> list[Single]:
-    """Return the elements in half sums and half differences of both ends (y_w+, y_w-, ...)."""
-    return [s for e in elements for s in (e.folded() if isinstance(e, Pair) else [e])]
+StateEntries = dict[tuple[int, int], Any]
 
 
 def polynomial_matrix(elements: Iterable[Single]) -> Entries:

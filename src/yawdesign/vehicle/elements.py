@@ -4,13 +4,13 @@ A *law* says what force answers a relative displacement ``u``, as a ratio of pol
 parallel between coordinates. Everything here holds numbers of any type (see :mod:`yawdesign.vehicle.polynomials`).
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import Any, Protocol
 
-from yawdesign.vehicle.polynomials import ONE, Number, Polynomial, add, multiply, times
+from yawdesign.vehicle.polynomials import ONE, Number, Polynomial, add, multiply, plus, times
 
-Coefficients = Mapping[str, Number]
+Coefficients = Mapping[str, Any]
 
 
 class Law(Protocol):
@@ -101,37 +101,84 @@ class Link:
         The relative displacement u = sum of coefficient * coordinate. The force acts back with the same coefficients.
     lever : mapping, optional
         The part of u that changes its sign at the rear end, if the link stands in a `Pair`.
+    outer : mapping, optional
+        The same for the pair that holds that pair.
     acts_on : set of coordinates, optional
         Where the force acts; all coordinates of u if not given (Newton's third law). The paper's printed equations
         lack one reaction; that is what this is for.
     name : str, optional
-        A name by which the link can be found in the matrix.
+        What people call it, such as ``yaw damper``. Outputs and modes of a damper in series with a spring are named
+        after it, so such a damper must have one.
+    pieces : int
+        How many equal ones the link stands for.
+    varied : bool
+        Whether it is the yaw damper: its damping is C_s, in whose powers the motions are written.
+    ends : mapping coordinate -> int, optional
+        How many ends of pairs a coordinate feels at once where half sums and differences stand for both ends.
     """
 
     laws: tuple[Law, ...]
     gap: Coefficients
     lever: Coefficients = field(default_factory=dict)
+    outer: Coefficients = field(default_factory=dict)
     acts_on: frozenset[str] | None = None
     name: str = ""
+    pieces: int = 1
+    varied: bool = False
+    ends: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def displacement(self) -> Coefficients:
-        """Gap and lever together."""
-        return {**self.gap, **self.lever}
+        """All parts of u together."""
+        return joined(self.gap, self.lever, self.outer)
 
     @property
     def force(self) -> Coefficients:
         """What the force is multiplied by in the equation of each coordinate it acts on."""
         acting = self.displacement if self.acts_on is None else self.acts_on
-        return {x: g for x, g in self.displacement.items() if x in acting}
+        return {x: times(self.ends.get(x, 1), g) for x, g in self.displacement.items() if x in acting}
+
+    @property
+    def maxwell(self) -> "tuple[Maxwell, ...]":
+        """Its dampers that are in series with a spring."""
+        return tuple(law for law in self.laws if isinstance(law, Maxwell))
+
+
+def joined(*parts: Coefficients) -> dict[str, Any]:
+    """Return the sum of parts of a displacement."""
+    out: dict[str, Any] = {}
+    for part in parts:
+        for x, g in part.items():
+            out[x] = plus(out[x], g) if x in out else g
+    return out
 
 
 @dataclass(frozen=True)
 class Mass:
-    """Mass (or moment of inertia) m of one coordinate."""
+    """Mass (or moment of inertia) m of one coordinate.
+
+    Parameters
+    ----------
+    coordinate : str
+        Its name, such as ``y_b``.
+    m : number
+        Mass [kg], or moment of inertia [kg m^2].
+    unit : {"m", "rad"}
+        Unit of the coordinate.
+    name : str, optional
+        What a mode is called in which it moves most; the coordinate's own name if not given.
+    creeping : str, optional
+        The same for a mode that does not oscillate.
+    alone : str, optional
+        What moves if nothing else does: the subject of "against each other".
+    """
 
     coordinate: str
     m: Number
+    unit: str = "m"
+    name: str = ""
+    creeping: str = ""
+    alone: str = ""
 
 
 @dataclass(frozen=True)
@@ -182,7 +229,7 @@ class WheelRailContact:
             (self.phi, self.phi): (-gravity * self.b, 2 * self.f_22 * self.b * self.b / self.v),
         }
 
-    def inputs(self) -> dict[tuple[str, str], Number]:
+    def inputs(self) -> dict[tuple[str, str], Any]:
         """Return the force [N], or moment [N m], in the equation of a coordinate per unit of a track input."""
         entries = self.entries()
         return {
@@ -197,23 +244,25 @@ Single = Link | Mass | WheelRailContact
 
 @dataclass(frozen=True)
 class Pair:
-    """The same elements at the front and at the rear end of a vehicle.
+    """The same elements at the front and at the rear end of a vehicle, or of a part of it.
 
     Parameters
     ----------
     elements : tuple
-        The front end's elements. In the rear ones the `Link.lever` has the opposite sign.
+        The front end's elements, pairs among them. In the rear ones the `Link.lever` has the opposite sign.
     own : set of str
         Coordinates that each end has for itself: ``y_w`` becomes ``y_w1`` and ``y_w2``, or, folded, half the sum
-        ``y_w+`` and half the difference ``y_w-``. So do the track inputs: ``alignment_1``, ``alignment_2``.
+        ``y_w+`` and half the difference ``y_w-``. So do the track inputs: ``alignment_1``, ``alignment_2``, and the
+        coordinates ``y_w1``, ``y_w2`` of a pair inside: ``y_w11`` ... ``y_w22``, the outer end last.
     """
 
-    elements: tuple[Single, ...]
+    elements: "tuple[Element, ...]"
     own: frozenset[str] = frozenset()
 
-    def ends(self) -> list[Single]:
+    def both_ends(self) -> list[Single]:
         """Return front and rear elements, in the coordinates of each end."""
-        return [self._rename(_at_end(e, sign), end) for end, sign in (("1", 1), ("2", -1)) for e in self.elements]
+        inside = physical(self.elements)
+        return [self._rename(_at_end(e, sign), end) for end, sign in (("1", 1), ("2", -1)) for e in inside]
 
     def folded(self) -> list[Single]:
         """Return the elements acting on half the sums and half the differences of the two ends.
@@ -221,54 +270,59 @@ class Pair:
         Sums meet only the even part of a link's displacement, differences only its lever; so the two groups are
         coupled by nothing but the bodies that both ends share, and the coupling graph of a bogie becomes a tree.
         """
-        return [self._rename(half, sign) for sign in "+-" for e in self.elements if (half := self._fold(e, sign))]
+        inside = folded(self.elements)
+        return [self._rename(half, sign) for sign in "+-" for e in inside if (half := self._fold(e, sign))]
+
+    def _owns(self, x: str) -> bool:
+        return x.rstrip("12+-") in self.own
 
     def _fold(self, element: Single, sign: str) -> Single | None:
         if not isinstance(element, Link):
             return element
-        shared = {x: g for x, g in element.gap.items() if x not in self.own} if sign == "+" else element.lever
-        own = {x: g for x, g in element.gap.items() if x in self.own}
+        own = {x: g for x, g in element.gap.items() if self._owns(x)}
+        shared = {x: g for x, g in element.gap.items() if x not in own} if sign == "+" else element.lever
         if not shared and not own:
             return None
         # Half the sum of two forces is what each end's own equation sees; a shared body feels both ends: twice that.
-        return _Folded(element.laws, {**shared, **own}, acts_on=element.acts_on, name=element.name, own=self.own)
+        ends = {**element.ends, **{x: 2 * element.ends.get(x, 1) for x in shared}}
+        return replace(element, gap={**shared, **own}, lever=element.outer, outer={}, ends=ends)
 
     def _rename(self, element: Single, suffix: str) -> Single:
         def new(x: str) -> str:
-            return x + suffix if x in self.own else x
+            return x + suffix if self._owns(x) else x
 
         match element:
             case Mass():
                 return replace(element, coordinate=new(element.coordinate))
             case WheelRailContact():
-                track = {x: f"{getattr(element, x)}_{suffix}" for x in ("alignment", "cross_level")}
+                track = {x: _numbered(getattr(element, x), suffix) for x in ("alignment", "cross_level")}
                 return replace(element, y=new(element.y), phi=new(element.phi), **track)
-        renamed = replace(
-            element,
-            gap={new(x): g for x, g in element.gap.items()},
-            acts_on=None if element.acts_on is None else frozenset(map(new, element.acts_on)),
-            name=element.name and element.name + suffix,
-        )
-        if isinstance(renamed, _Folded):
-            return replace(renamed, own=frozenset(map(new, renamed.own)))
-        return renamed
+        parts = {part: {new(x): g for x, g in getattr(element, part).items()} for part in ("gap", "lever", "ends")}
+        acts_on = None if element.acts_on is None else frozenset(map(new, element.acts_on))
+        return replace(element, acts_on=acts_on, name=element.name and _numbered(element.name, suffix, " "), **parts)
 
 
-@dataclass(frozen=True)
-class _Folded(Link):
-    """A pair of links seen by half the sum, or half the difference, of their displacements."""
-
-    own: frozenset[str] = frozenset()
-
-    @property
-    def force(self) -> Coefficients:
-        return {x: g if x in self.own else times(2, g) for x, g in super().force.items()}
+def _numbered(name: str, suffix: str, blank: str = "_") -> str:
+    """Return a name with the sign of an end behind it, and behind that of an end inside."""
+    return name + suffix if name[-1] in "12+-" else f"{name}{blank}{suffix}"
 
 
 def _at_end(element: Single, sign: int) -> Single:
-    if not isinstance(element, Link) or not element.lever:
+    """Return an element at the front (+1) or rear (-1) end; its lever then is that of the next pair around."""
+    if not isinstance(element, Link):
         return element
-    return replace(element, lever={x: times(sign, g) for x, g in element.lever.items()})
+    gap = joined(element.gap, {x: times(sign, g) for x, g in element.lever.items()})
+    return replace(element, gap=gap, lever=element.outer, outer={})
 
 
 Element = Single | Pair
+
+
+def physical(elements: Iterable[Element]) -> list[Single]:
+    """Return the elements in the coordinates of each end (y_w1, y_w2, ...)."""
+    return [s for e in elements for s in (e.both_ends() if isinstance(e, Pair) else [e])]
+
+
+def folded(elements: Iterable[Element]) -> list[Single]:
+    """Return the elements in half sums and half differences of both ends (y_w+, y_w-, ...)."""
+    return [s for e in elements for s in (e.folded() if isinstance(e, Pair) else [e])]

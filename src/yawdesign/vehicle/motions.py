@@ -1,123 +1,123 @@
-"""The characteristic polynomial A(s) + C_s B(s) of a bogie, with its exact factors split off."""
+"""The motions of a vehicle: the independent parts of its equations, each a polynomial in s and in the yaw damping C_s.
 
-from collections.abc import Iterable, Mapping
+They are found on the graph of the polynomial matrix, so they belong to the model and not to its numbers. What no yaw
+damper reaches is a motion like any other, whose polynomial has no power of C_s.
+"""
+
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
+from itertools import combinations
+from typing import Any
 
-from yawdesign.vehicle.assembly import folded, polynomial_matrix
-from yawdesign.vehicle.catalogue import YAW_DAMPER, Parameters, bogie
-from yawdesign.vehicle.elements import Element, Link, Single, Spring
-from yawdesign.vehicle.polynomials import ZERO, Determinant, Number, Polynomial, add, product, scale, scale_variable
+from yawdesign.vehicle.assembly import polynomial_matrix
+from yawdesign.vehicle.determinant import Determinant, Node
+from yawdesign.vehicle.elements import Link, Mass, Single, Spring
+from yawdesign.vehicle.polynomials import ONE, ZERO, Number, Polynomial, add, multiply, scale
 
-FACTOR_NAMES = {
-    frozenset({"phi_m-"}): "motors yawing against each other",
-    frozenset({"phi_m+"}): "motors yawing together",
-}
-DAMPER_FACTOR = "yaw dampers against each other"
+COUPLED = "coupled motion"
+TOGETHER = {"+": "together", "-": "against each other"}
 
 
 @dataclass(frozen=True)
-class Characteristic:
-    """Characteristic polynomial ``(A(s) + C_s B(s)) * product of factors`` of the coupled and the decoupled motions.
-
-    All polynomials have their lowest power first. The highest coefficient may be zero where a damper has none.
+class Motion:
+    """An independent part of the equations, with the polynomial ``coefficients[0] + C_s coefficients[1] + ...``.
 
     Parameters
     ----------
-    A, B : tuple
-        The coupled motion; degree 23 with reciprocal equations, 21 as printed, 15 without motors.
-    factors : mapping name -> polynomial
-        Motions of their own that no yaw damper reaches.
+    name : str
+        The coupled motion, or what moves in a decoupled one, such as ``motors yawing against each other``.
+    coordinates : frozenset of str
+        What moves in it, half sums ``y_w+`` and half differences ``y_w-`` of both ends.
+    coefficients : tuple of tuple
+        A polynomial in s, lowest power first, for every power of C_s [N s/m]. The highest coefficients may be zero
+        where a damper has no damping. The coupled motion of the power bogie has degree 23 in s (21 as printed), that
+        of the trailer bogie 15, and both degree 1 in C_s.
     """
 
-    A: Polynomial
-    B: Polynomial
-    factors: Mapping[str, Polynomial]
+    name: str
+    coordinates: frozenset[str]
+    coefficients: tuple[Polynomial, ...]
 
-    def core(self, C_s: Number) -> Polynomial:
-        """Return the coupled motion's polynomial A + C_s B."""
-        return add(self.A, scale(self.B, C_s))
+    @property
+    def varied(self) -> bool:
+        """Whether a yaw damper reaches it."""
+        return len(self.coefficients) > 1
 
-    def full(self, C_s: Number) -> Polynomial:
-        """Return the polynomial of all modes (degree 25, without motors 15)."""
-        return product([self.core(C_s), *self.factors.values()])
+    def polynomial(self, C_s: Number) -> Polynomial:
+        """Return its characteristic polynomial, lowest power of s first, with a yaw damping [N s/m]."""
+        return reduce(lambda value, part: add(part, scale(value, C_s)), self.coefficients[::-1])
 
 
-def characteristic(p: Parameters, *, kind: str = "power", equations: str = "reciprocal") -> Characteristic:
-    """Return the characteristic polynomial of the paper's bogie, for any number type.
+def motions(elements: Sequence[Single]) -> tuple[Motion, ...]:
+    """Return the independent motions of elements, those that a yaw damper reaches first.
+
+    With the law n / d = C_s s / (1 + C_s s / K) of a yaw damper the determinant is ``d free + n locked``, where `free`
+    is the determinant without the damper and `locked` the one in which its displacement is held at zero; so with
+    several dampers it is a sum over all ways to free and to lock them.
 
     Parameters
     ----------
-    p : mapping
-        Symbols of Table I in SI units, and ``v`` [m/s]. ``C_s`` is not needed: the polynomial is linear in it.
-    kind, equations : str
-        As in `yawdesign.vehicle.catalogue.bogie`.
-
-    Examples
-    --------
-    >>> from yawdesign import table1
-    >>> problem = table1()
-    >>> c = characteristic({**problem.bogie.parameters(), "v": 300 / 3.6})
-    >>> len(c.A), len(c.B), list(c.factors)
-    (23, 24, ['motors yawing against each other'])
+    elements : sequence
+        In half sums and half differences. Of the links with `varied` the damping is not looked at.
     """
-    return split(bogie({**p, "C_s": 0}, kind=kind, equations=equations), p["K_ds"])
+    dampers = {link.name: 1 / link.maxwell[0].K for link in elements if isinstance(link, Link) and link.varied}
+    matrix = Determinant(_without_laws(polynomial_matrix(_with_unit_laws(elements)), dampers))
+    masses = {e.coordinate: e for e in elements if isinstance(e, Mass)}
+    found = []
+    for piece in matrix.factors(matrix.nodes):
+        own = {name: softness for name, softness in dampers.items() if name in piece}
+        coordinates = frozenset(x for x in masses if x in piece)
+        if coordinates:
+            name = COUPLED if own else _name([masses[x] for x in sorted(coordinates)])
+            found.append(Motion(name, coordinates, _coefficients(matrix, piece, own)))
+    return tuple(sorted(found, key=lambda motion: not motion.varied))
 
 
-def split(elements: Iterable[Element], K_ds: Number) -> Characteristic:
-    """Return the characteristic polynomial of any vehicle with a link named `YAW_DAMPER`, as a function of its C_s.
-
-    With the law C_s s / (1 + C_s s / K_ds) the determinant is ``free (1 + C_s s / K_ds) + locked C_s s``, where `free`
-    is the determinant without the damper and `locked` the one in which its displacement is held at zero.
-
-    Parameters
-    ----------
-    elements : iterable
-        The vehicle; the law of the named link is not looked at.
-    K_ds : number
-        Series stiffness of the yaw damper [N/m].
-    """
-    unit_law = [_with_unit_law(e) for e in folded(elements)]
-    matrix = Determinant(polynomial_matrix(unit_law))
-    pieces = matrix.factors(matrix.nodes)
-    core = next(piece for piece in pieces if YAW_DAMPER in piece)
-    free = matrix.of(core - {YAW_DAMPER})
-    locked = matrix.rooted(YAW_DAMPER, core, ZERO)
-    factors = {_factor_name(piece): matrix.of(piece) for piece in pieces if piece != core}
-    return Characteristic(free, (0, *add(scale(free, 1 / K_ds), locked)), factors)
+def _with_unit_laws(elements: Iterable[Single]) -> list[Single]:
+    return [replace(e, laws=(Spring(1),)) if isinstance(e, Link) and e.varied else e for e in elements]
 
 
-def _with_unit_law(element: Single) -> Single:
-    if isinstance(element, Link) and element.name == YAW_DAMPER:
-        return replace(element, laws=(Spring(1),))
-    return element
+def _without_laws(entries: dict[Any, Polynomial], dampers: Iterable[str]) -> dict[Any, Polynomial]:
+    """Return the matrix in which the displacement of every yaw damper is held at zero."""
+    held = {(name, name) for name in dampers}
+    return {place: p for place, p in entries.items() if place not in held}
 
 
-def _factor_name(piece: Iterable[object]) -> str:
-    coordinates = frozenset(x for x in piece if isinstance(x, str))
-    return FACTOR_NAMES.get(coordinates, ", ".join(sorted(coordinates)))
+def _coefficients(matrix: Determinant, piece: frozenset[Node], dampers: dict[str, Any]) -> tuple[Polynomial, ...]:
+    """Return the polynomial of a piece by powers of C_s; `dampers` holds 1/K of each yaw damper in it."""
+    powers: list[Polynomial] = [ZERO] * (len(dampers) + 1)
+    for count in range(len(dampers) + 1):
+        for locked in combinations(dampers, count):
+            free = [name for name in dampers if name not in locked]
+            minor = _minor(matrix, piece - set(free), locked)
+            # Every locked damper brings C_s s, every free one 1 + C_s s / K.
+            laws = [(ZERO, (0, 1))] * len(locked) + [(ONE, (0, dampers[name])) for name in free]
+            for power, factor in enumerate(_product(laws)):
+                powers[power] = add(powers[power], multiply(factor, minor))
+    return tuple(powers)
 
 
-def paper_coefficients(
-    p: Parameters, C_s: Number, *, kind: str = "power", equations: str = "reciprocal", unit: Number = 1
-) -> tuple[Number, ...]:
-    """Return chi_0 ... chi_26 of eq. (9), the determinant of the 22 x 22 matrix (7), highest power of s first.
+def _minor(matrix: Determinant, nodes: frozenset[Node], locked: Sequence[str]) -> Polynomial:
+    return matrix.rooted(locked[0], nodes, ZERO) if locked else matrix.of(nodes)
 
-    Parameters
-    ----------
-    p, kind, equations
-        As in `characteristic`.
-    C_s : number
-        Damping of the pair of yaw dampers [N s/m].
-    unit : number, optional
-        Time scale [rad/s]: the coefficients are those of the polynomial in s / unit.
 
-    Returns
-    -------
-    tuple
-        27 coefficients (17 without motors); with the model as printed those of (7) to the last factor.
-    """
-    c = characteristic(p, kind=kind, equations=equations)
-    joints = [p["K_ds"], p["K_dt"]] + ([p["K_dm"]] if kind == "power" else [])
-    fourth = product([(K,) for K in joints for _ in range(4)])
-    whole = product([c.full(C_s), (1, C_s / p["K_ds"]), fourth])
-    return tuple(reversed(scale_variable(whole, unit)))
+def _product(laws: Sequence[tuple[Polynomial, Polynomial]]) -> list[Polynomial]:
+    """Return the product of laws a + C_s b by powers of C_s."""
+    product: list[Polynomial] = [ONE]
+    for a, b in laws:
+        grown: list[Polynomial] = [ZERO] * (len(product) + 1)
+        for power, p in enumerate(product):
+            grown[power] = add(grown[power], multiply(a, p))
+            grown[power + 1] = add(grown[power + 1], multiply(b, p))
+        product = grown
+    return product
+
+
+def _name(masses: Sequence[Mass]) -> str:
+    """Return what moves in a motion that no yaw damper reaches."""
+    alone = {(mass.alone, mass.coordinate[-1]) for mass in masses}
+    subject, end = alone.pop()
+    if subject and not alone:
+        return f"{subject} {TOGETHER[end]}" if end in TOGETHER else subject
+    return ", ".join(mass.coordinate for mass in masses)

@@ -1,4 +1,4 @@
-"""What the motions, forces and strokes of a bogie are called: one vocabulary for state space, runs, exports and FMU.
+"""What the motions, forces and strokes of a vehicle are called: one vocabulary for state space, runs, exports and FMU.
 
 Coordinates are ``y_b``, ``phi_b``, ``y_w1``, ..., their rates ``y_b_velocity`` and ``y_b_acceleration``. A damper in
 series with its joints is displaced by ``yaw_damper_displacement``, its piston by ``yaw_damper_stroke``;
@@ -7,11 +7,7 @@ series with its joints is displaced by ``yaw_damper_displacement``, its piston b
 
 from typing import Any
 
-from yawdesign.vehicle.catalogue import YAW_DAMPER
-
-DAMPERS = {YAW_DAMPER: 2}  # equal dampers that a link stands for, where these are more than one
-YAW_FORCE, PAIR_FORCE, YAW_DISPLACEMENT = "yaw_damper_force", "yaw_damper_pair_force", "yaw_damper_displacement"
-OLD_OUTPUTS = {"F_s": PAIR_FORCE, "u_s": YAW_DISPLACEMENT}
+OLD_OUTPUTS = {"F_s": "yaw_damper_pair_force", "u_s": "yaw_damper_displacement"}
 
 
 def velocity(coordinate: str) -> str:
@@ -24,25 +20,22 @@ def acceleration(coordinate: str) -> str:
     return f"{coordinate}_acceleration"
 
 
+def rate_unit(unit: str, order: int = 1) -> str:
+    """Return the SI unit of a velocity, or of an acceleration (order 2)."""
+    return f"{unit}/s" if order == 1 else f"{unit}/s^{order}"
+
+
 def of_damper(link: str, what: str) -> str:
     """Return the name of what belongs to a damper.
 
     Examples
     --------
-    >>> of_damper("yaw damper", "force"), of_damper("lateral damper 1", "stroke")
-    ('yaw_damper_force', 'lateral_damper_stroke_1')
+    >>> of_damper("yaw damper", "pair force"), of_damper("lateral damper 1", "stroke")
+    ('yaw_damper_pair_force', 'lateral_damper_stroke_1')
     """
     words = link.split()
-    end = [words.pop()] if words[-1].isdigit() else []
-    return "_".join([*words, what, *end])
-
-
-def unit_of(name: str) -> str:
-    """Return the SI unit of a signal, such as ``y_b_velocity``."""
-    if "force" in name:
-        return "N"
-    base = "rad" if name.startswith(("phi", "cross_level")) else "m"
-    return base + ("/s" if name.endswith("_velocity") else "/s^2" if name.endswith("_acceleration") else "")
+    end = [words.pop()] if not words[-1].strip("12+-") else []
+    return "_".join([*words, *what.split(), *end])
 
 
 class SignalNames(tuple[str, ...]):

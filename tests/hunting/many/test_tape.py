@@ -9,7 +9,7 @@ from yawdesign.hunting.many import counts as kernels
 from yawdesign.hunting.many import library_cache, tape
 from yawdesign.hunting.many.tape import Tape
 from yawdesign.hunting.routh import count_unstable
-from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.old import characteristic
 
 
 @pytest.fixture(autouse=True)

@@ -8,8 +8,7 @@ from hypothesis import strategies as st
 import yawdesign as yd
 from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.response.modes.named_modes import modes_at
-from yawdesign.vehicle.assembly import StateSpace, physical
-from yawdesign.vehicle.catalogue import bogie
+from yawdesign.vehicle.old import StateSpace, bogie, physical
 
 
 def roots_of(modes):

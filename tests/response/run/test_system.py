@@ -5,9 +5,7 @@ import pytest
 
 import yawdesign as yd
 from yawdesign.response.run.system import system_at
-from yawdesign.vehicle.assembly import StateSpace, folded, physical
-from yawdesign.vehicle.catalogue import bogie
-from yawdesign.vehicle.signals import unit_of
+from yawdesign.vehicle.old import StateSpace, bogie, folded, physical, unit_of
 
 
 @pytest.fixture(params=["power", "trailer"])

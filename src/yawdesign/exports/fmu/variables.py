@@ -7,7 +7,8 @@ from yawdesign.exports.equations_of_motion import IN_SERIES, LEAST_DAMPING, Equa
 from yawdesign.problem import PARAMETERS
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import Parameter
-from yawdesign.vehicle.signals import OLD_OUTPUTS, PAIR_FORCE, YAW_DISPLACEMENT, YAW_FORCE, velocity
+from yawdesign.vehicle.old import PAIR_FORCE, YAW_DISPLACEMENT, YAW_FORCE
+from yawdesign.vehicle.signals import OLD_OUTPUTS, velocity
 
 _MOTION = {"y": ("m", "mm", "lateral displacement"), "phi": ("rad", "mrad", "yaw angle")}
 _BODIES = {"b": "bogie frame", "w": "wheelset", "m": "motor"}

@@ -3,15 +3,15 @@
 from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache, reduce
 from itertools import pairwise
+from typing import Any
 
 import casadi as ca
 
 from yawdesign.hunting.many.tape import Tape
 from yawdesign.hunting.routh import TIME_UNIT, routh_rows
 from yawdesign.problem.parameters import parameter_keys
-from yawdesign.vehicle.motions import Characteristic, characteristic
+from yawdesign.vehicle.old import Characteristic, characteristic
 from yawdesign.vehicle.polynomials import (
-    Number,
     Polynomial,
     add,
     even_odd,
@@ -108,24 +108,24 @@ def _without_zeros(p: Polynomial) -> Polynomial:
     return trim(p, lambda a: bool(ca.SX(a).is_zero()))
 
 
-def _count(rows: Sequence[Sequence[Number]]) -> list[ca.SX]:
+def _count(rows: Sequence[Sequence[Any]]) -> list[ca.SX]:
     """Return the number of sign changes in Routh's column, and the number of doubtful entries."""
     negative = [ca.SX(row[0]) < 0 for row in rows]
     changes = [(a - b) ** 2 for a, b in pairwise(negative)]
     return [reduce(plus, changes), len(rows) - reduce(plus, _sure(rows))]
 
 
-def _sure(rows: Sequence[Sequence[Number]]) -> list[ca.SX]:
+def _sure(rows: Sequence[Sequence[Any]]) -> list[ca.SX]:
     """Return for every entry of Routh's column whether it is larger than its doubt; what is no number is not."""
     return [_doubt(rows, k) < ca.fabs(row[0]) for k, row in enumerate(rows)]
 
 
-def _doubt(rows: Sequence[Sequence[Number]], k: int) -> Number:
+def _doubt(rows: Sequence[Sequence[Any]], k: int) -> Any:
     minuend = rows[k - 2][2] if k >= 2 and len(rows[k - 2]) > 2 else 0
     return LEFT_OVER * ca.fabs(minuend)
 
 
-def _tape(inputs: Mapping[str, ca.SX], outputs: Iterable[Number]) -> Tape:
+def _tape(inputs: Mapping[str, ca.SX], outputs: Iterable[Any]) -> Tape:
     results = ca.vertcat(*map(ca.SX, outputs))
     used = [name for name, x in inputs.items() if x.is_symbolic() and ca.depends_on(results, x)]
     return Tape(ca.Function("tape", [inputs[name] for name in used], [results], used, ["results"]))

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
 from yawdesign.hunting.arrays import Complex, Float, Index
-from yawdesign.vehicle.assembly import StateSpace, folded
-from yawdesign.vehicle.catalogue import Parameters, bogie
+from yawdesign.vehicle.catalogue import Parameters
+from yawdesign.vehicle.old import StateSpace, bogie, folded
 from yawdesign.vehicle.polynomials import Number
 
 ROUNDING = 1e-13  # relative to the size of the matrix

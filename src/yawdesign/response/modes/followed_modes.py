@@ -23,7 +23,7 @@ from yawdesign.response.modes.links import LOST
 from yawdesign.response.modes.named_modes import parameters_at
 from yawdesign.response.modes.names import named_roots
 from yawdesign.response.modes.paths import Path, follow_part, names_at_home, size
-from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.old import characteristic
 
 SPEED_NAMES = ("v", "speed")
 MOST_VALUES = 10_000  # of the parameter: about a minute and 0.3 GB

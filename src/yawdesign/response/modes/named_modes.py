@@ -15,7 +15,7 @@ from yawdesign.response.modes.eigenvectors import Motion, unfold, whole_vector
 from yawdesign.response.modes.hunting_mode import hunting_root
 from yawdesign.response.modes.names import NamedRoot, named_roots
 from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.motions import characteristic
+from yawdesign.vehicle.old import characteristic
 from yawdesign.vehicle.polynomials import Polynomial
 
 

@@ -10,7 +10,8 @@ from scipy.optimize import linear_sum_assignment
 from yawdesign.hunting.arrays import Complex, Float, Index
 from yawdesign.response.modes.eigenvectors import Eigensystem, Motion, motion, parts, spectrum
 from yawdesign.response.modes.hunting_mode import conicity_share, hunting_root
-from yawdesign.vehicle.catalogue import LATERAL_DAMPER, MOTOR_DAMPER, YAW_DAMPER, Parameters
+from yawdesign.vehicle.catalogue import Parameters
+from yawdesign.vehicle.old import LATERAL_DAMPER, MOTOR_DAMPER, YAW_DAMPER
 
 HUNTING = "wheelset hunting"
 GROUPS = {

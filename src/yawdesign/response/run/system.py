@@ -11,10 +11,9 @@ import numpy as np
 from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem
-from yawdesign.vehicle.assembly import StateSpace, physical
-from yawdesign.vehicle.catalogue import YAW_DAMPER, bogie
 from yawdesign.vehicle.elements import Link, Mass, Single, WheelRailContact
-from yawdesign.vehicle.signals import DAMPERS, PAIR_FORCE, YAW_DISPLACEMENT, acceleration, of_damper, velocity
+from yawdesign.vehicle.old import DAMPERS, PAIR_FORCE, YAW_DAMPER, YAW_DISPLACEMENT, StateSpace, bogie, physical
+from yawdesign.vehicle.signals import acceleration, of_damper, velocity
 
 INPUTS = ("alignment", "cross_level")
 

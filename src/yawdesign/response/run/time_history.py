@@ -22,7 +22,7 @@ from yawdesign.response.run.time_steps import (
 from yawdesign.response.track.measured import MeasuredTrack
 from yawdesign.response.track.named_tracks import AnyTrack
 from yawdesign.response.track.tracks import Clock, Lines, RandomTrack, synthesise
-from yawdesign.vehicle.signals import unit_of
+from yawdesign.vehicle.old import unit_of
 
 USUAL_DURATION = 60.0  # [s]
 USUAL_GROWTH, LEAST_DURATION = 7.0, 2.0  # an unstable bogie usually runs until it has grown by exp(7), or for 2 s

@@ -1,0 +1,200 @@
+"""The model: which equations; and the vehicle: a model at given numbers, which assembles itself once."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any, Self
+
+from yawdesign.problem import Problem
+from yawdesign.problem.conditions import Condition, conditions
+from yawdesign.problem.parameters import parameter_keys
+from yawdesign.vehicle.catalogue import CATALOGUE, Parameters
+from yawdesign.vehicle.elements import Element, Link, Single, folded, physical
+from yawdesign.vehicle.motions import Motion, motions
+from yawdesign.vehicle.polynomials import Number, Polynomial, product, scale_variable
+from yawdesign.vehicle.state_space import StateSpace
+
+
+@dataclass(frozen=True)
+class Model:
+    """Which equations: hashable, the key of every cache, and sent to workers with plain numbers.
+
+    Parameters
+    ----------
+    kind : {"power", "trailer"}
+        With or without traction motors.
+    equations : {"reciprocal", "as-printed"}
+        With the motors' yaw reaction on the frame, or without it as eqs (1) and (7) are printed.
+    """
+
+    kind: str = "power"
+    equations: str = "reciprocal"
+
+    @classmethod
+    def of(cls, problem: Problem) -> Self:
+        """Return the model of a problem."""
+        return cls(problem.bogie.kind, problem.equations)
+
+    def at(self, p: Parameters, **more: Number) -> "Vehicle":
+        """Return the vehicle with given numbers: symbols of Table I in SI units, ``v`` [m/s] and maybe ``C_s``."""
+        return Vehicle(self, {**p, **more})
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the numbers that a vehicle has, C_s and v among them."""
+        return (*parameter_keys(self.kind), "v")
+
+    @property
+    def sources(self) -> Mapping[str, frozenset[str]]:
+        """By the name of each motion, on which parameters it depends; C_s is not one of them."""
+        return _sources(self)
+
+    @property
+    def joints(self) -> Mapping[str, str]:
+        """By the damping of each damper in series with joints, the stiffness of these; by parameters' names."""
+        return _joints(self)
+
+    def movable(self, variables: Iterable[str]) -> tuple[str, ...]:
+        """Return the names of the motions that some design variable moves; what a yaw damper reaches is among them."""
+        chosen = frozenset(variables)
+        first, *others = self.sources
+        return (first, *(name for name in others if self.sources[name] & chosen))
+
+
+class Sources(frozenset[str]):
+    """A number of which nothing is known but which parameters it is made of."""
+
+    def _joined(self, other: Any) -> "Sources":
+        return Sources(self | other) if isinstance(other, Sources) else self
+
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = _joined  # type: ignore[assignment]
+
+    def __neg__(self) -> "Sources":
+        return self
+
+
+@lru_cache
+def _traced(model: Model) -> "Vehicle":
+    return model.at({name: Sources({name}) for name in model.parameters})
+
+
+@lru_cache
+def _sources(model: Model) -> dict[str, frozenset[str]]:
+    numbers = {motion.name: [a for p in motion.coefficients for a in p] for motion in _traced(model).motions}
+    return {name: frozenset().union(*(a for a in every if isinstance(a, Sources))) for name, every in numbers.items()}
+
+
+@lru_cache
+def _joints(model: Model) -> dict[str, str]:
+    laws = [law for link in _traced(model).physical if isinstance(link, Link) for law in link.maxwell]
+    return {damping: stiffness for law in laws for damping in law.c for stiffness in law.K}
+
+
+class Vehicle:
+    """A model at given numbers of any type: floats, arrays, SX, rationals.
+
+    Parameters
+    ----------
+    model : Model
+        Which equations.
+    p : mapping
+        Symbols of Table I in SI units (``lambda`` for the conicity), ``v`` [m/s] and, where it is known, ``C_s``.
+
+    Examples
+    --------
+    >>> from yawdesign import table1
+    >>> problem = table1()
+    >>> first, second = Vehicle.of(problem)[0].motions
+    >>> [len(part) for part in first.coefficients], second.name
+    ([23, 24], 'motors yawing against each other')
+    """
+
+    def __init__(self, model: Model, p: Parameters) -> None:
+        self.model = model
+        self.p = p
+
+    @classmethod
+    def of(cls, problem: Problem) -> tuple["Vehicle", ...]:
+        """Return the vehicle of a problem under each of its conditions."""
+        p = problem.bogie.parameters()
+        return tuple(Model.of(problem).at(condition.applied(p)) for condition in conditions(problem))
+
+    def under(self, condition: Condition) -> "Vehicle":
+        """Return the vehicle under a condition."""
+        return Vehicle(self.model, condition.applied(self.p))
+
+    def replace(self, **changes: Number) -> "Vehicle":
+        """Return the vehicle with other numbers."""
+        return Vehicle(self.model, {**self.p, **{"lambda" if k == "lambda_" else k: x for k, x in changes.items()}})
+
+    @property
+    def C_s(self) -> Any:
+        """Damping of the pair of yaw dampers [N s/m]; 0 if it is not given."""
+        return self.p.get("C_s", 0)
+
+    @property
+    def v(self) -> Any:
+        """Speed [m/s]."""
+        return self.p["v"]
+
+    @cached_property
+    def elements(self) -> tuple[Element, ...]:
+        """What it is made of."""
+        return tuple(CATALOGUE[self.model.kind](self.p, self.model.equations))
+
+    @property
+    def physical(self) -> list[Single]:
+        """Its elements in the coordinates of each end."""
+        return physical(self.elements)
+
+    @cached_property
+    def folded(self) -> list[Single]:
+        """Its elements in half sums and half differences of both ends."""
+        return folded(self.elements)
+
+    @cached_property
+    def motions(self) -> tuple[Motion, ...]:
+        """Its independent motions, the coupled one, which the yaw dampers reach, first."""
+        return motions(self.folded)
+
+    @property
+    def coupled(self) -> Motion:
+        """The motion that the yaw dampers reach."""
+        return self.motions[0]
+
+    @property
+    def polynomial(self) -> Polynomial:
+        """Its characteristic polynomial, lowest power of s first: the product of those of its motions.
+
+        Degree 25 with motors, 15 without.
+        """
+        return product(motion.polynomial(self.C_s) for motion in self.motions)
+
+    @cached_property
+    def state_space(self) -> StateSpace:
+        """Its state space in the coordinates of each end."""
+        return StateSpace(self.physical)
+
+    @cached_property
+    def folded_state_space(self) -> StateSpace:
+        """The same in half sums and half differences of both ends, in which the motions are apart."""
+        return StateSpace(self.folded)
+
+    def paper_coefficients(self, unit: Number = 1) -> tuple[Any, ...]:
+        """Return chi_0 ... chi_26 of eq. (9), the determinant of the 22 x 22 matrix (7), highest power of s first.
+
+        Parameters
+        ----------
+        unit : number, optional
+            Time scale [rad/s]: the coefficients are those of the polynomial in s / unit.
+
+        Returns
+        -------
+        tuple
+            27 coefficients (17 without motors); with the model as printed those of (7) to the last factor.
+        """
+        # Each joint stands in a row of its own in (7), and each yaw damper separately.
+        joints = [self.p[K] for K in self.model.joints.values()]
+        fourth = product([(K,) for K in joints for _ in range(4)])
+        whole = product([self.polynomial, (1, self.C_s / self.p["K_ds"]), fourth])
+        return tuple(reversed(scale_variable(whole, unit)))
