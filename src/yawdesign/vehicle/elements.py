@@ -295,9 +295,9 @@ class Pair:
             case Mass():
                 return replace(element, coordinate=new(element.coordinate))
             case WheelRailContact():
-                track = {x: _numbered(getattr(element, x), suffix) for x in ("alignment", "cross_level")}
+                track: Any = {x: _numbered(getattr(element, x), suffix) for x in ("alignment", "cross_level")}
                 return replace(element, y=new(element.y), phi=new(element.phi), **track)
-        parts = {part: {new(x): g for x, g in getattr(element, part).items()} for part in ("gap", "lever", "ends")}
+        parts: Any = {part: {new(x): g for x, g in getattr(element, part).items()} for part in ("gap", "lever", "ends")}
         acts_on = None if element.acts_on is None else frozenset(map(new, element.acts_on))
         return replace(element, acts_on=acts_on, name=element.name and _numbered(element.name, suffix, " "), **parts)
 

@@ -56,8 +56,9 @@ class Characteristic:
 
 
 def characteristic(p: Parameters, *, kind: str = "power", equations: str = "reciprocal") -> Characteristic:
+    others: Any = []
     first, *others = Model(kind, equations).at({**p, "C_s": 0}).motions
-    return Characteristic(*first.coefficients, {m.name: m.polynomial(0) for m in others})
+    return Characteristic(first.coefficients[0], first.coefficients[1], {m.name: m.polynomial(0) for m in others})
 
 
 def paper_coefficients(

@@ -142,7 +142,7 @@ class StateSpace:
         n = len(self.coordinates)
         units = {x: mass.unit for x, mass in self._masses.items()}
         named = list(enumerate(self.coordinates))
-        rows = {x: ({i: 1}, {}, units[x]) for i, x in named}
+        rows: dict[str, tuple[Row, Row, str]] = {x: ({i: 1}, {}, units[x]) for i, x in named}
         rows |= {velocity(x): ({n + i: 1}, {}, rate_unit(units[x])) for i, x in named}
         rows |= {acceleration(x): (*self._acceleration(n + i), rate_unit(units[x], 2)) for i, x in named}
         for contact in (e for e in self.elements if isinstance(e, WheelRailContact)):

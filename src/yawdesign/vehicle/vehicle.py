@@ -67,7 +67,7 @@ class Sources(frozenset[str]):
     def _joined(self, other: Any) -> "Sources":
         return Sources(self | other) if isinstance(other, Sources) else self
 
-    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = _joined  # type: ignore[assignment]
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = _joined
 
     def __neg__(self) -> "Sources":
         return self
@@ -86,7 +86,7 @@ def _sources(model: Model) -> dict[str, frozenset[str]]:
 
 @lru_cache
 def _joints(model: Model) -> dict[str, str]:
-    laws = [law for link in _traced(model).physical if isinstance(link, Link) for law in link.maxwell]
+    laws: list[Any] = [law for link in _traced(model).physical if isinstance(link, Link) for law in link.maxwell]
     return {damping: stiffness for law in laws for damping in law.c for stiffness in law.K}
 
 
