@@ -45,6 +45,11 @@ class Model:
         return (*parameter_keys(self.kind), "v")
 
     @property
+    def motions(self) -> tuple[Motion, ...]:
+        """The motions of its vehicles, with their names and coordinates; their numbers say which parameters they need."""
+        return _traced(self).motions
+
+    @property
     def sources(self) -> Mapping[str, frozenset[str]]:
         """By the name of each motion, on which parameters it depends; C_s is not one of them."""
         return _sources(self)
@@ -80,7 +85,7 @@ def _traced(model: Model) -> "Vehicle":
 
 @lru_cache
 def _sources(model: Model) -> dict[str, frozenset[str]]:
-    numbers = {motion.name: [a for p in motion.coefficients for a in p] for motion in _traced(model).motions}
+    numbers = {motion.name: [a for p in motion.coefficients for a in p] for motion in model.motions}
     return {name: frozenset().union(*(a for a in every if isinstance(a, Sources))) for name, every in numbers.items()}
 
 
@@ -125,7 +130,11 @@ class Vehicle:
 
     def replace(self, **changes: Number) -> "Vehicle":
         """Return the vehicle with other numbers."""
-        return Vehicle(self.model, {**self.p, **{"lambda" if k == "lambda_" else k: x for k, x in changes.items()}})
+        names = {"lambda" if name == "lambda_" else name: value for name, value in changes.items()}
+        other = Vehicle(self.model, {**self.p, **names})
+        if names.keys() == {"C_s"}:  # in whose powers the motions are written: they are the same
+            other.__dict__["motions"] = self.motions
+        return other
 
     @property
     def C_s(self) -> Any:
