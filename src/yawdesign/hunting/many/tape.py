@@ -89,15 +89,15 @@ class Tape:
             elif operation == ca.OP_INPUT:
                 place[into[0]] = sources[0]
             else:
-                is_constant = operation == ca.OP_CONST
-                what = _literal(function.instruction_constant(k)) if is_constant else operation
-                key = what, *(place[i] for i in sources)
+                operands = tuple(place[i] for i in sources)
+                constant = function.instruction_constant(k) if operation == ca.OP_CONST else None
+                key = operation, repr(constant), operands  # -0.0 is another constant than 0.0
                 if key not in known:
                     known[key] = count = len(self.inputs) + len(known)
-                    if is_constant:
-                        self.constants[count] = function.instruction_constant(k)
+                    if constant is not None:
+                        self.constants[count] = constant
                     else:
-                        self._add(operation, count, key[1:])
+                        self._add(operation, count, operands)
                 place[into[0]] = known[key]
 
     def _add(self, operation: int, target: int, sources: tuple[int, ...]) -> None:
