@@ -18,12 +18,12 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from yawdesign.study.question import Question
 
 import yawdesign as yd
 from yawdesign.hunting.certificate import Certificate, certify
 from yawdesign.hunting.old import critical_damping
 from yawdesign.study.answers import evaluate
-from yawdesign.study.question import Question
 
 MODELS = (("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal"))
 TABLE_1 = {name: float(x) for name, x in yd.table1().bogie.parameters().items() if name != "C_s" and x is not None}

@@ -15,6 +15,7 @@ from typing import Any
 import control
 import numpy as np
 from scipy.optimize import brentq
+from yawdesign.study.question import Question
 
 import yawdesign as yd
 from yawdesign.hunting.boundary import critical_damping as critical_function
@@ -23,7 +24,6 @@ from yawdesign.hunting.many import compiled
 from yawdesign.hunting.many import counts as kernels
 from yawdesign.hunting.old import certify, core_matrix, critical_damping, state_matrix
 from yawdesign.study.answers import evaluate
-from yawdesign.study.question import Question
 from yawdesign.vehicle.old import characteristic
 from yawdesign.vehicle.polynomials import add, even_odd, multiply, scale, scale_variable
 

@@ -4,6 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from yawdesign.study.question import Question
 
 import yawdesign as yd
 from yawdesign.hunting.many import critical_values
@@ -11,7 +12,6 @@ from yawdesign.hunting.many.parameter_sets import Block
 from yawdesign.hunting.old import certify
 from yawdesign.study import answers as points
 from yawdesign.study.answers import evaluate
-from yawdesign.study.question import Question
 
 SPEEDS = yd.SpeedRange(min="200 km/h", max="300 km/h", steps=3)
 

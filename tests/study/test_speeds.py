@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 import scipy.linalg
+from yawdesign.study.question import SEARCHED, Question
 
 from yawdesign.hunting.old import core_eigenvalues, core_matrix
 from yawdesign.study.answers import evaluate
-from yawdesign.study.question import SEARCHED, Question
 
 
 def all_critical_speeds(p, C_s, model):

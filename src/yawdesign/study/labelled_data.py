@@ -16,7 +16,7 @@ from yawdesign.problem import ProblemError
 from yawdesign.problem.result import plain
 from yawdesign.problem.whole_files import refuse_existing, whole_file, write_whole
 from yawdesign.study.axes import ROWS, block
-from yawdesign.study.question import UNITS
+from yawdesign.study.request import UNITS
 from yawdesign.study.result import Sweep
 from yawdesign.study.store import MASKS, write_arrays
 

@@ -19,8 +19,7 @@ from yawdesign.problem.diagnostics import unknown_key
 from yawdesign.problem.result import Result, plain
 from yawdesign.study.axes import Axis, shape
 from yawdesign.study.kept_file import KeptFile
-from yawdesign.study.question import QUANTITIES, UNITS
-from yawdesign.study.request import Request
+from yawdesign.study.request import QUANTITIES, UNITS, Request
 from yawdesign.study.store import MASKS, Store
 
 if TYPE_CHECKING:
