@@ -285,7 +285,8 @@ class Pair:
             return None
         # Half the sum of two forces is what each end's own equation sees; a shared body feels both ends: twice that.
         ends = {**element.ends, **{x: 2 * element.ends.get(x, 1) for x in shared}}
-        lever = element.outer if sign == "+" else {}  # what changes its sign with the outer end is alike at both inner ones
+        # What changes its sign with the outer end is alike at both inner ones.
+        lever = element.outer if sign == "+" else {}
         return replace(element, gap={**shared, **own}, lever=lever, outer={}, ends=ends)
 
     def _rename(self, element: Single, suffix: str) -> Single:
