@@ -40,6 +40,11 @@ class Decision:
     C_s: Float
     status: NDArray[np.str_]
 
+    def stable_intervals(self, k: int) -> tuple[tuple[float, float], ...]:
+        """Return the open intervals of C_s in which a vehicle is stable under every condition [N s/m]."""
+        stable = self.stable[k] & (self.low[k] < self.high[k])
+        return tuple(zip(self.low[k][stable].tolist(), self.high[k][stable].tolist(), strict=True))
+
 
 def decide(crossings: Sequence[Crossings], upper: Float, others_stable: Bools) -> Decision:
     """Return the forward design between the critical values of n vehicles.

@@ -126,7 +126,7 @@ class Space:
         return kept
 
     def beats(self, values: Values, level: Float | float) -> Bools:
-        """Return where a design is feasible and its margin surely exceeds a level; a ratio below zero counts as zero.
+        """Return where a design is feasible and its margin exceeds a level; a ratio below zero counts as zero.
 
         Parameters
         ----------

@@ -2,11 +2,11 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import reduce
 
 import numpy as np
 
 from yawdesign.damper.curving import curving_limit, rotational_resistance
+from yawdesign.damper.decision import decide
 from yawdesign.damper.status import Status
 from yawdesign.hunting.boundary import boundary, boundary_slope, parameter_names
 from yawdesign.hunting.critical_damping import CriticalDamping, CriticalValue, Interval, critical_damping
@@ -16,7 +16,6 @@ from yawdesign.problem import Curve, Problem
 from yawdesign.problem.result import Result
 from yawdesign.vehicle.vehicle import Vehicle
 
-GOLDEN = 0.382
 ON_BOUNDARY = 1e-10  # largest residual of the scaled equations of the boundary with which a value has derivatives
 
 
@@ -103,21 +102,19 @@ def forward_design(vehicles: Sequence[Vehicle], curve: Curve | None) -> ForwardD
         What limits C_s.
     """
     found = [critical_damping(vehicle) for vehicle in vehicles]
-    damped = others_stable(vehicles)
-    stable = reduce(intersect, [sets.stable_intervals for sets in found]) if damped else ()
+    crossings = [(np.array([[x.C_s for x in sets.critical]]), np.array([sets.unstable_roots])) for sets in found]
     upper = None if curve is None else min(float(curving_limit(vehicle.p, curve)) for vehicle in vehicles)
-    interval = _chosen(stable, np.inf if upper is None else upper)
-    golden = _golden(interval)
+    most = np.array([np.inf if upper is None else upper])
+    decision = decide(crossings, most, np.array([others_stable(vehicles)]))
+    C_sl, golden = (None if np.isnan(x[0]) else float(x[0]) for x in (decision.C_sl, decision.C_s))
     checked = all(sets.checked for sets in found) and (golden is None or _is_stable(vehicles, golden))
-    status = _status(stable, upper, interval) if damped else Status.UNDAMPED
-    status = status if checked else Status.UNVERIFIED
+    status = Status(decision.status[0]) if checked else Status.UNVERIFIED
     C_s = golden if checked else None
-    C_sl = interval[0] if interval else (stable[0][0] if stable else None)
     return ForwardDesign(
         critical=tuple(
             _at_speed(x, vehicle) for sets, vehicle in zip(found, vehicles, strict=True) for x in sets.critical
         ),
-        stable_intervals=stable,
+        stable_intervals=decision.stable_intervals(0),
         C_sl=C_sl,
         C_su=upper,
         C_s=C_s,
@@ -131,43 +128,10 @@ def forward_design(vehicles: Sequence[Vehicle], curve: Curve | None) -> ForwardD
     )
 
 
-def intersect(left: Iterable[Interval], right: Iterable[Interval]) -> tuple[Interval, ...]:
-    """Return the intersection of two sets of open intervals."""
-    right = tuple(right)
-    both = [(max(a, c), min(b, d)) for a, b in left for c, d in right]
-    return tuple(sorted((low, high) for low, high in both if low < high))
-
-
 def others_stable(vehicles: Iterable[Vehicle]) -> bool:
     """Return whether all motions that no yaw damper reaches are stable; no C_s can help there."""
     others = [motion for vehicle in vehicles for motion in vehicle.motions if not motion.varied]
     return all(count_unstable(motion.polynomial(0)) == 0 for motion in others)
-
-
-def _chosen(stable: tuple[Interval, ...], upper: float) -> Interval | None:
-    below = intersect(stable, [(0.0, upper)])
-    return max(below, key=lambda i: i[1] - i[0]) if below else None
-
-
-def _golden(interval: Interval | None) -> float | None:
-    if interval is None or np.isinf(interval[1]):
-        return None
-    return GOLDEN * interval[1] + (1 - GOLDEN) * interval[0]
-
-
-def _status(stable: tuple[Interval, ...], upper: float | None, interval: Interval | None) -> Status:
-    if not stable:
-        return Status.STABLE_FOR_NONE
-    if upper is not None and upper <= 0:
-        return Status.INFEASIBLE_IN_CURVE
-    if interval is None:
-        return Status.INFEASIBLE
-    limit = np.inf if upper is None else upper
-    if interval[1] < limit or len(intersect(stable, [(0.0, limit)])) > 1:
-        return Status.PARTLY_UNSTABLE
-    if np.isinf(interval[1]):
-        return Status.NO_UPPER_LIMIT
-    return Status.STABLE_FOR_EVERY if stable == ((0.0, np.inf),) else Status.OK
 
 
 def _at_speed(x: CriticalValue, vehicle: Vehicle) -> Critical:

@@ -18,7 +18,7 @@ from yawdesign.hunting.arrays import Float, Index
 BLOCK = 100_000  # points at once: enough to hide Python's overhead, few enough for any memory
 CELLS = 6  # cells per axis in up to three variables, each with a best point of its own; in all about 6^3
 STARTS = 20  # cells that are refined, in up to three variables; in more of them more
-FIRST = 1024  # points that give the cells their first levels
+FIRST = 512  # points that give the cells their first levels
 OTHERS = 4900  # points in the variables other than C_s
 LINE = 72  # points along C_s
 MOST_SPLIT = 9  # variables whose axes are divided into cells: their number doubles with each
@@ -61,7 +61,7 @@ def search(space: Space, seed: int, progress: Progress) -> Float:
     d, rng = len(space.names), np.random.default_rng(seed)
     cells = _DesignCells.of(d)
     first = np.concatenate([_spread(d, FIRST, rng), space.anchors], axis=1)
-    _look(space, cells, first)
+    cells.offer(first, space.margins_at(first))
     blocks = list(_blocks(space, rng))
     for k, x in enumerate(blocks):
         progress("searching the design space", k / len(blocks))

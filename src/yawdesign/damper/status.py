@@ -32,6 +32,11 @@ class Status(StrEnum):
         member.meaning, member.remedy = meaning, remedy
         return member
 
+    @classmethod
+    def _missing_(cls, value: object) -> Self | None:
+        """Return the kind of a word: where two have it, that of the forward design."""
+        return next((member for member in cls if str(member) == value), None)
+
     OK = "ok", "the design interval (C_sl, C_su) is stable throughout"
     STABLE_FOR_EVERY = (
         "stable for every C_s",

@@ -48,7 +48,9 @@ class WorstMargin:
         return np.argsort(-self._worst_of, kind="stable")
 
     def exceeds(self, sets: ParameterSets, level: Float) -> Bools:
-        """Return where the margin surely exceeds a level, by Routh's array; a ratio below zero counts as zero.
+        """Return where the margin exceeds a level, by Routh's array; a ratio below zero counts as zero.
+
+        Doubtful verdicts, those within rounding of the level, count as they are: they are no proof.
 
         Parameters
         ----------
@@ -63,16 +65,16 @@ class WorstMargin:
             while len(left) and len(rest):
                 together = max(1, min(len(rest), TOGETHER // len(left)))
                 some, rest = rest[:together], rest[together:]
-                passed = self._passed(part, level[left], some).all(axis=0)
-                part, left = part.part(passed), left[passed]
+                passed, _ = self._verdicts(part, level[left], some)
+                part, left = part.part(passed.all(axis=0)), left[passed.all(axis=0)]
             out[left] = True
         return out
 
-    def _passed(self, sets: ParameterSets, level: Float, chosen: Sequence[int] | Index) -> Bools:
-        """Return where margins surely exceed a level, shape (conditions, n)."""
-        here = _under(sets, [self.conditions[k] for k in chosen])
+    def _verdicts(self, sets: ParameterSets, level: Float, chosen: Sequence[int] | Index) -> tuple[Bools, Bools]:
+        """Return where margins exceed a level under some conditions, and where that is sure; shape (conditions, n)."""
+        here, shape = _under(sets, [self.conditions[k] for k in chosen]), (len(chosen), sets.size)
         yes, sure = exceeds(here, self.objective, np.tile(level, len(chosen)), self.variables)
-        return np.asarray(yes & sure).reshape(len(chosen), sets.size)
+        return yes.reshape(shape), sure.reshape(shape)
 
     def under_each(self, sets: ParameterSets) -> Float:
         """Return the margins under every condition, shape (conditions, n). Parameter as in `exceeds`."""
@@ -95,7 +97,8 @@ class WorstMargin:
     def _where_less(self, sets: ParameterSets, level: Float, chosen: Sequence[int]) -> Float:
         """Return margins under some conditions, shape (conditions, n); infinite where they surely exceed a level."""
         value = np.full((len(chosen), sets.size), np.inf)
-        open_ = np.nonzero(~self._passed(sets, level, chosen))
+        yes, sure = self._verdicts(sets, level, chosen)
+        open_ = np.nonzero(~(yes & sure))
         here = _under(sets, [self.conditions[k] for k in chosen]).part(np.ravel_multi_index(open_, value.shape))
         value[open_] = eigenvalue_margins(here, self.objective, self.variables)
         return value
