@@ -289,6 +289,7 @@ def test_a_damper_without_damping_is_left_out(tmp_path):
     times, found = simulated(str(path), [*names, "yaw_damper_pair_force"], stop_time=0.5, start_values={"y_w1": 1e-3})
     assert_close(found[:, :-1], exact(A, np.eye(22)[names.index("y_w1")] * 1e-3, times)[:, : len(names)])
     assert not found[:, -1].any()
+    assert variables["yaw_damper_displacement"] == "displacement of each yaw damper with its joints"
 
 
 def test_a_state_can_be_kept_and_taken_up_again(table1_fmu, opened):

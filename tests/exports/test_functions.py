@@ -317,6 +317,10 @@ def test_old_names_of_states_and_outputs_are_found():
         assert before in model.states
     assert [model.outputs.index(name) for name in ("F_s", "u_s")] == [20, 21]
     assert "F_m" not in model.outputs
+    A, _, C, _ = yd.functions(yd.table1()).documented["state_matrix"].outputs
+    assert [A.rows.index(name) for name in old] == [model.states.index(name) for name in old]
+    assert [C.rows.index(name) for name in ("F_s", "u_s")] == [20, 21]
+    assert "v_y_b" in C.columns
     with pytest.raises(ValueError, match="not in tuple"):
         model.states.index("z_6")
 

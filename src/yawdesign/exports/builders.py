@@ -1,4 +1,4 @@
-"""The functions for other codes, one builder each: the generic code of the rooms before, fed with symbols."""
+"""The functions for other codes, one builder each: the code that numbers use too, with symbols in their place."""
 
 import math
 from collections.abc import Callable, Mapping

@@ -46,8 +46,10 @@ def _of_track(contact: WheelRailContact, wheelset: str) -> Iterator[Meaning]:
 def _of_dampers(link: Link) -> Iterator[Meaning]:
     damper = _at_end(link.name.rstrip(" 12"), link.name)
     several = f"{damper}s" if link.pieces > 1 else damper
-    force = f"force of each of the two {several}" if link.pieces > 1 else f"force of the {damper}"
     yield of_damper(link.name, "stroke"), f"stroke of the dashpot of the {several}, without its joints"
-    yield of_damper(link.name, "displacement"), f"displacement of each {damper} with its joints"
-    yield of_damper(link.name, "force"), force
+    if link.pieces == 1:
+        yield of_damper(link.name, "force"), f"force of the {damper}"
+        return
+    yield of_damper(link.name, "force"), f"force of each of the two {several}"
     yield of_damper(link.name, "pair force"), f"force of both {several} together"
+    yield of_damper(link.name, "displacement"), f"displacement of each {damper} with its joints"
