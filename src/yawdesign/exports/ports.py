@@ -11,8 +11,7 @@ from yawdesign.problem import PARAMETERS, Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.running import CURVE, SPEED
-
-ALIASES = {"lambda_": "lambda", "speed": "v"}
+from yawdesign.problem.table import key_of
 
 
 @dataclass(frozen=True)
@@ -102,7 +101,7 @@ class Setting:
 
 
 def _known(inputs: Collection[str], allowed: Collection[str]) -> set[str]:
-    names = [ALIASES.get(name, name) for name in inputs]
+    names = ["v" if name == "speed" else key_of(name) for name in inputs]
     mistakes = Mistakes()
     for name in names:
         with mistakes.under(f"inputs: {name}"):

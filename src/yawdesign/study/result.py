@@ -17,6 +17,7 @@ from yawdesign.hunting.arrays import Array, Bools
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import unknown_key
 from yawdesign.problem.result import Result, plain
+from yawdesign.problem.table import field_name
 from yawdesign.study.axes import Axis, shape
 from yawdesign.study.kept_file import KeptFile
 from yawdesign.study.question import QUANTITIES, UNITS
@@ -124,7 +125,7 @@ class Sweep(Result):
             Name of an axis and a value in SI.
         """
         ((name, value),) = place.items()
-        names = ["lambda_" if axis.name == "lambda" else axis.name for axis in self.axes]
+        names = [field_name(axis.name) for axis in self.axes]
         if name not in names:
             raise ProblemError(f"{name} {unknown_key(name, names)}; the axes are {', '.join(names)}")
         k = names.index(name)
