@@ -1,7 +1,11 @@
-"""The rooms of the house: a module imports only from its own room or from rooms to its left."""
+"""The rooms of the house: imports go one way, between rooms and between modules, and a name stands for one thing."""
 
 import ast
+import importlib
+import inspect
 import sys
+from collections import Counter
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -13,6 +17,11 @@ ROOT = Path(yawdesign.__file__).parent
 MODULES = sorted(path for path in ROOT.rglob("*.py") if path != ROOT / "__init__.py")
 # What a room may import from outside, where that is restricted.
 FORBIDDEN = {"problem": {"casadi", "scipy", "numpy", "matplotlib"}, "output": {"casadi"}}
+# Names of files that say nothing of what is inside.
+VAGUE = {
+    *("block", "choice", "chunks", "columns", "draft", "following", "kernels", "linking", "march", "model", "models"),
+    *("modes", "motion", "points", "question", "runs", "speeds", "starts", "states", "thorough", "track", "walking"),
+}
 
 
 def room_of(path):
@@ -20,11 +29,22 @@ def room_of(path):
     return path.relative_to(ROOT).parts[0].removesuffix(".py")
 
 
+def name_of(path):
+    """Return the full name of a module."""
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(["yawdesign", *(part for part in parts if part != "__init__")])
+
+
+NAMES = {name_of(path): path for path in MODULES}
+
+
 def imports(path):
-    """Yield the full name of everything that a module imports, also inside its functions."""
+    """Yield the full name of everything that a module imports: in functions, for type checkers, by a text."""
     package = ("yawdesign", *path.relative_to(ROOT).parts[:-1])
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
+        if isinstance(node, ast.Constant) and node.value in NAMES:
+            yield node.value
+        elif isinstance(node, ast.Import):
             yield from (name.name for name in node.names)
         elif isinstance(node, ast.ImportFrom):
             base = package[: len(package) + 1 - node.level] if node.level else ()
@@ -57,6 +77,38 @@ def test_what_rooms_may_import_from_outside(path):
     assert not outside & FORBIDDEN.get(room_of(path), set())
 
 
+def modules_of(path):
+    """Return the modules of the package that a module imports, or imports something from."""
+    found = {name if name in NAMES else name.rpartition(".")[0] for name in imports(path)}
+    return found & set(NAMES) - {name_of(path)}
+
+
+def test_no_module_comes_back_to_itself():
+    """Not by imports inside functions either: who opens a module goes on, and never around."""
+    try:
+        TopologicalSorter({name: modules_of(path) for name, path in NAMES.items()}).prepare()
+    except CycleError as error:
+        pytest.fail(" -> ".join(error.args[1]))
+
+
+def test_file_names_say_what_is_inside():
+    assert not {path for path in MODULES if path.stem in VAGUE}
+
+
+def test_a_class_name_stands_for_one_class():
+    trees = (ast.parse(path.read_text(encoding="utf-8")) for path in MODULES)
+    names = Counter(node.name for tree in trees for node in ast.walk(tree) if isinstance(node, ast.ClassDef))
+    assert not [name for name, count in names.items() if count > 1]
+
+
+def test_every_result_that_is_drawn_is_drawn_by_a_function():
+    for kind, (home, name) in importlib.import_module("yawdesign.output.plots").DRAWN_BY.items():
+        assert inspect.isclass(getattr(yawdesign, kind))
+        assert callable(getattr(importlib.import_module(home), name))
+
+
 def test_something_was_looked_at():
+    assert "yawdesign.hunting.verdict" in modules_of(ROOT / "response" / "run" / "simulate.py")
+    assert "yawdesign.output.sweep_plots" in modules_of(ROOT / "output" / "plots.py")
     assert {room_of(path) for path in MODULES} >= {"problem", "vehicle", "hunting"}
     assert "yawdesign.vehicle.polynomials.Number" in set(imports(ROOT / "vehicle" / "elements.py"))

@@ -261,13 +261,13 @@ def simulate(
 ) -> None:
     """Run the bogie over a track: RMS, peaks, whether amplitudes settle, and what its yaw damper has to do."""
     with _mistakes_shown():
-        from yawdesign.output import histories, plots
+        from yawdesign.output import histories, pictures, plots
         from yawdesign.output.targets import Target, checked_targets
 
         tables = Target("--csv", csv, (".csv",), force), Target("--npz", npz, (".npz",), force)
-        targets = (*tables, Target("--plot", plot, plots.PICTURES, force))
+        targets = (*tables, Target("--plot", plot, pictures.PICTURES, force))
         to_csv, to_npz, to_plot = checked_targets(targets, [file, track])
-        plots.check_pictures(to_plot)
+        pictures.check_pictures(to_plot)
         problem = _read(file)
         _check_response(problem, response, plot)
         with _progress() as progress:
@@ -288,7 +288,7 @@ def simulate(
                 progress=progress,
             )
         if to_plot:
-            plots.write_picture(plots.plot(result, response=response or "y_b"), to_plot, replace=force)
+            pictures.write_picture(plots.plot(result, response=response or "y_b"), to_plot, replace=force)
         if to_csv:
             histories.write_csv(result, to_csv, replace=force)
         if to_npz:
@@ -331,12 +331,12 @@ def modes(
 ) -> None:
     """Show all modes by name: frequency, damping, what takes part; follow them over speed or any parameter."""
     with _mistakes_shown():
-        from yawdesign.output import plots
+        from yawdesign.output import pictures, plots
         from yawdesign.output.targets import Target, checked_targets
 
-        pictures = Target("--plot", plot, plots.PICTURES, force), Target("--to", to, plots.ANIMATIONS, force)
-        to_plot, to_animate = checked_targets(pictures, [file])
-        plots.check_pictures(to_plot, to_animate)
+        drawn = Target("--plot", plot, pictures.PICTURES, force), Target("--to", to, pictures.ANIMATIONS, force)
+        to_plot, to_animate = checked_targets(drawn, [file])
+        pictures.check_pictures(to_plot, to_animate)
         _check_modes(over=over, plot=plot, of=of, animate=animate, to=to)
         problem = _read(file)
         if over:
@@ -345,7 +345,7 @@ def modes(
             result = import_module("yawdesign.response.modes.named_modes").modes(problem)
         if to_plot:
             options: dict[str, Any] = {"of": of or "root_locus"} if over else {"mode": animate or None}
-            plots.write_picture(plots.plot(result, **options), to_plot, replace=force)
+            pictures.write_picture(plots.plot(result, **options), to_plot, replace=force)
         if to_animate:
             moving = import_module("yawdesign.output.animation").animate
             moving(result, to_animate, mode=animate or None, replace=force)

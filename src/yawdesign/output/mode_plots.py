@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from yawdesign.output.pictures import new_axes
 from yawdesign.output.plan_view import COLOURS, REST, Body, bodies, caption, find_mode, half_size, subtitle
-from yawdesign.output.plots import new_axes
 from yawdesign.problem import PARAMETERS, ProblemError, to_unit
 from yawdesign.problem.table import as_choice
 

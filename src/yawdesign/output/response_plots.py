@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from yawdesign.output.plots import literal, new_axes
+from yawdesign.output.pictures import literal, new_axes
 from yawdesign.problem import ProblemError, format_quantity
 
 if TYPE_CHECKING:

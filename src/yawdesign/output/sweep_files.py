@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import mkdtemp
 
-from yawdesign.output.plots import PICTURES, check_pictures, write_picture
+from yawdesign.output.pictures import PICTURES, check_pictures, write_picture
 from yawdesign.output.plots import plot as draw
 from yawdesign.output.sweep_plots import check_drawn
 from yawdesign.output.targets import Target, checked_targets

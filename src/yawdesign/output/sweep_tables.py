@@ -7,7 +7,7 @@ import numpy as np
 from rich.console import Group, RenderableType
 from rich.table import Table
 
-from yawdesign.output.shown_units import shown_unit
+from yawdesign.output.sweep_style import shown_unit
 from yawdesign.problem import format_quantity
 from yawdesign.study.axes import ROWS, Axis
 from yawdesign.study.result import Sweep
