@@ -254,7 +254,7 @@ def whole_sweep(name):
         ("yawdesign.study.sweep", "_boundary"),
         ("yawdesign.output.sweep_files", "draw"),
         ("yawdesign.output.pictures", "write_whole"),
-        ("yawdesign.cli", "_show_sweep"),
+        ("yawdesign.cli.sweeps", "show"),
         ("numpy", "savez_compressed"),
         ("numpy.lib.format", "write_array"),
         ("zipfile", "ZipFile.close"),

@@ -101,10 +101,11 @@ def test_a_class_name_stands_for_one_class():
     assert not [name for name, count in names.items() if count > 1]
 
 
-def test_every_result_that_is_drawn_is_drawn_by_a_function():
-    for kind, (home, name) in importlib.import_module("yawdesign.output.plots").DRAWN_BY.items():
+@pytest.mark.parametrize(("home", "name"), [("output.plots", "DRAWN_BY"), ("cli.answering", "TABLES_BY")])
+def test_what_shows_a_result_is_there(home, name):
+    for kind, (module, function) in getattr(importlib.import_module(f"yawdesign.{home}"), name).items():
         assert inspect.isclass(getattr(yawdesign, kind))
-        assert callable(getattr(importlib.import_module(home), name))
+        assert callable(getattr(importlib.import_module(module), function))
 
 
 def test_something_was_looked_at():
