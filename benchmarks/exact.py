@@ -21,7 +21,7 @@ import numpy as np
 
 import yawdesign as yd
 from yawdesign.hunting.certificate import Certificate, certify
-from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.hunting.old import critical_damping
 from yawdesign.study.answers import evaluate
 from yawdesign.study.question import Question
 

@@ -18,8 +18,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 import yawdesign as yd
-from yawdesign.hunting.critical_damping import critical_damping
-from yawdesign.hunting.eigenvalues import core_matrix
+from yawdesign.hunting.old import core_matrix, critical_damping
 
 DRIVER = r"""
 #include <stdio.h>

@@ -14,7 +14,7 @@ from scipy.optimize import differential_evolution
 
 import yawdesign as yd
 from yawdesign.damper.curving import curving_limit
-from yawdesign.hunting.eigenvalues import core_matrix
+from yawdesign.hunting.old import core_matrix
 
 
 def problem(objective: str, equations: str, seed: int | None = None) -> yd.Problem:

@@ -19,11 +19,9 @@ from scipy.optimize import brentq
 import yawdesign as yd
 from yawdesign.hunting.boundary import critical_damping as critical_function
 from yawdesign.hunting.boundary import parameter_names
-from yawdesign.hunting.certificate import certify
-from yawdesign.hunting.critical_damping import critical_damping
-from yawdesign.hunting.eigenvalues import core_matrix, state_matrix
 from yawdesign.hunting.many import compiled
 from yawdesign.hunting.many import counts as kernels
+from yawdesign.hunting.old import certify, core_matrix, critical_damping, state_matrix
 from yawdesign.study.answers import evaluate
 from yawdesign.study.question import Question
 from yawdesign.vehicle.old import characteristic

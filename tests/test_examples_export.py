@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.hunting.critical_damping import critical_damping
-from yawdesign.hunting.eigenvalues import eigenvalues, state_matrix
+from yawdesign.hunting.eigenvalues import eigenvalues
+from yawdesign.hunting.old import critical_damping, state_matrix
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"

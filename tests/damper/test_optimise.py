@@ -5,7 +5,7 @@ import pytest
 
 import yawdesign as yd
 from yawdesign.damper.design_space import Space
-from yawdesign.hunting.eigenvalues import state_matrix
+from yawdesign.hunting.old import state_matrix
 
 # The best known margins over C_s in [1e3, C_su], K_m and C_m in [0.1, 10] times Table I, at 300 km/h.
 BEST = {

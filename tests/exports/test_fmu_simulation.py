@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 import yawdesign as yd
-from yawdesign.hunting.eigenvalues import state_matrix
+from yawdesign.hunting.old import state_matrix
 from yawdesign.vehicle.old import StateSpace, bogie, physical
 
 TOLERANCE = 1e-6  # of the largest value; CVode is asked for 1e-9 in every step

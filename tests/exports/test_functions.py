@@ -13,10 +13,10 @@ import yawdesign as yd
 from yawdesign.damper.curving import curving_limit, resisting_moment, rotational_resistance
 from yawdesign.exports.functions import c_source, functions, self_test
 from yawdesign.exports.ports import Draft, Setting
-from yawdesign.hunting import boundary as graphs
-from yawdesign.hunting.critical_damping import critical_damping
-from yawdesign.hunting.eigenvalues import core_eigenvalues, damping_ratio, decay_rate, eigenvalues, state_matrix
+from yawdesign.hunting.eigenvalues import damping_ratio, decay_rate, eigenvalues
 from yawdesign.hunting.hurwitz import hurwitz_minors
+from yawdesign.hunting.old import boundary as graphs
+from yawdesign.hunting.old import core_eigenvalues, critical_damping, state_matrix
 from yawdesign.hunting.routh import routh_column, sector_column
 from yawdesign.vehicle.old import StateSpace, bogie, characteristic, paper_coefficients, physical
 from yawdesign.vehicle.polynomials import scale_variable, shift

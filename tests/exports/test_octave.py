@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import yawdesign as yd
-from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.hunting.old import critical_damping
 
 OCTAVE = shutil.which("octave-cli") or shutil.which("octave")
 DOCS = Path(__file__).parents[2] / "docs" / "export-matlab.md"

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from yawdesign.hunting import boundary as graphs
-from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.hunting.old import boundary as graphs
+from yawdesign.hunting.old import critical_damping
 from yawdesign.hunting.routh import routh_column
 from yawdesign.vehicle.old import characteristic
 from yawdesign.vehicle.polynomials import scale_variable

@@ -8,7 +8,8 @@ import flint
 import pytest
 
 from yawdesign.hunting import certificate
-from yawdesign.hunting.certificate import certify, critical_values, hurwitz_polynomial, positive_roots, unstable_roots
+from yawdesign.hunting.certificate import positive_roots
+from yawdesign.hunting.old import certify, critical_values, hurwitz_polynomial, unstable_roots
 from yawdesign.problem import Written
 from yawdesign.vehicle.old import Characteristic, characteristic, paper_coefficients
 from yawdesign.vehicle.polynomials import product

@@ -6,11 +6,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from yawdesign.hunting.certificate import certify
-from yawdesign.hunting.critical_damping import critical_damping
-from yawdesign.hunting.eigenvalues import core_matrix
 from yawdesign.hunting.many.critical_values import critical_field
 from yawdesign.hunting.many.parameter_sets import Block
+from yawdesign.hunting.old import certify, core_matrix, critical_damping
 from yawdesign.hunting.routh import count_unstable
 from yawdesign.vehicle.old import characteristic
 

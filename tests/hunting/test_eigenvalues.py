@@ -4,17 +4,8 @@ import flint
 import numpy as np
 import pytest
 
-from yawdesign.hunting.eigenvalues import (
-    backward_error,
-    core_eigenvalues,
-    core_matrix,
-    damping_ratio,
-    decay_rate,
-    eigenvalues,
-    polished,
-    roots,
-    state_matrix,
-)
+from yawdesign.hunting.eigenvalues import backward_error, damping_ratio, decay_rate, eigenvalues, polished, roots
+from yawdesign.hunting.old import core_eigenvalues, core_matrix, state_matrix
 from yawdesign.vehicle.old import characteristic
 
 PRINTED = {"kind": "power", "equations": "as-printed"}

@@ -6,8 +6,8 @@ from fractions import Fraction
 import pytest
 
 from yawdesign.hunting import exact
-from yawdesign.hunting.certificate import certify
-from yawdesign.hunting.exact import NotDecidedError, exact_critical_values
+from yawdesign.hunting.exact import NotDecidedError
+from yawdesign.hunting.old import certify, exact_critical_values
 from yawdesign.vehicle.old import Characteristic
 from yawdesign.vehicle.polynomials import product
 

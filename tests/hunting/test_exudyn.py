@@ -26,7 +26,7 @@ from exudyn.itemInterface import (
 )
 from scipy.optimize import linear_sum_assignment
 
-from yawdesign.hunting.eigenvalues import state_matrix
+from yawdesign.hunting.old import state_matrix
 from yawdesign.vehicle.old import StateSpace, bogie, physical
 
 ENDS, SIDES = (1, -1), (1, -1)  # front and rear, left and right

@@ -6,8 +6,8 @@ import flint
 import numpy as np
 import pytest
 
-from yawdesign.hunting import boundary as graphs
 from yawdesign.hunting.hurwitz import hurwitz_minors
+from yawdesign.hunting.old import boundary as graphs
 from yawdesign.vehicle.old import paper_coefficients
 
 

@@ -5,8 +5,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from yawdesign.hunting.critical_damping import critical_damping
-from yawdesign.hunting.eigenvalues import core_matrix, state_matrix
+from yawdesign.hunting.old import core_matrix, critical_damping, state_matrix
 from yawdesign.vehicle.old import characteristic
 
 MODELS = st.sampled_from([("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal")]).map(

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from yawdesign.hunting.eigenvalues import core_matrix
+from yawdesign.hunting.old import core_matrix
 from yawdesign.vehicle.elements import Link, Mass, Spring, WheelRailContact
 from yawdesign.vehicle.old import StateSpace, characteristic
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.hunting.old import critical_damping
 
 PRINTED = yd.table1(equations="as-printed")
 # Of Table I's K_m and M_m; C_m is proportional to it while xi_m is held.

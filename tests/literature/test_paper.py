@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.hunting.old import critical_damping
 
 PRINTED = {"kind": "power", "equations": "as-printed"}
 

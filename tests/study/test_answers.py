@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.hunting.certificate import certify
 from yawdesign.hunting.many import critical_values
 from yawdesign.hunting.many.parameter_sets import Block
+from yawdesign.hunting.old import certify
 from yawdesign.study import answers as points
 from yawdesign.study.answers import evaluate
 from yawdesign.study.question import Question

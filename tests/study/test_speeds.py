@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from yawdesign.hunting.eigenvalues import core_eigenvalues, core_matrix
+from yawdesign.hunting.old import core_eigenvalues, core_matrix
 from yawdesign.study.answers import evaluate
 from yawdesign.study.question import SEARCHED, Question
 

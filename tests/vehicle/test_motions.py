@@ -5,7 +5,7 @@ import flint
 import numpy as np
 import pytest
 
-from yawdesign.hunting.eigenvalues import state_matrix
+from yawdesign.hunting.old import state_matrix
 from yawdesign.vehicle.assembly import polynomial_matrix
 from yawdesign.vehicle.elements import Mass
 from yawdesign.vehicle.old import StateSpace, bogie, characteristic, paper_coefficients, physical

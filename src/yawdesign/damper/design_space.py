@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from yawdesign.damper.curving import LOWERING, RAISING, curving_limit, resistance_scale, resisting_moment
 from yawdesign.hunting.arrays import Float
-from yawdesign.hunting.eigenvalues import MARGINS, core_eigenvalues
+from yawdesign.hunting.eigenvalues import MARGINS
+from yawdesign.hunting.old import core_eigenvalues, fixed_factors
 from yawdesign.hunting.routh import damped_more, decays_faster
-from yawdesign.hunting.verdict import fixed_factors
 from yawdesign.problem import PARAMETERS, Curve, Problem
 from yawdesign.problem.conditions import Condition, conditions
 from yawdesign.vehicle.old import characteristic

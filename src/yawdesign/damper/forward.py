@@ -7,9 +7,9 @@ from functools import reduce
 import numpy as np
 
 from yawdesign.damper.curving import curving_limit, rotational_resistance
-from yawdesign.hunting import boundary as graphs
-from yawdesign.hunting.critical_damping import CriticalDamping, CriticalValue, Interval, critical_damping
-from yawdesign.hunting.verdict import stability_at, undamped_roots
+from yawdesign.hunting.critical_damping import CriticalDamping, CriticalValue, Interval
+from yawdesign.hunting.old import boundary as graphs
+from yawdesign.hunting.old import critical_damping, stability_at, undamped_roots
 from yawdesign.problem import Problem
 from yawdesign.problem.conditions import conditions
 from yawdesign.problem.result import Result

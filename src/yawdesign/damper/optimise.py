@@ -13,8 +13,9 @@ from yawdesign.damper.nlp import improve
 from yawdesign.damper.search import refine, search
 from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.hurwitz import hurwitz_minors
+from yawdesign.hunting.old import stability_at
 from yawdesign.hunting.routh import TIME_UNIT
-from yawdesign.hunting.verdict import Mode, Stability, stability_at
+from yawdesign.hunting.verdict import Mode, Stability
 from yawdesign.problem import Curve, Problem, ProblemError
 from yawdesign.problem.arguments import Progress
 from yawdesign.problem.table import as_seed

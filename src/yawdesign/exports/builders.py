@@ -11,8 +11,8 @@ from yawdesign.damper.curving import LOADS, curving_limit, resisting_moment, rot
 from yawdesign.exports.ports import Draft, described, per
 from yawdesign.exports.starts import quadratic_factors, start_of_critical_damping
 from yawdesign.exports.states import state_names, state_space_matrices
-from yawdesign.hunting import boundary as graphs
 from yawdesign.hunting.hurwitz import hurwitz_minors as generic_minors
+from yawdesign.hunting.old import boundary as graphs
 from yawdesign.hunting.routh import TIME_UNIT, sector_column
 from yawdesign.hunting.routh import routh_column as generic_column
 from yawdesign.problem import ProblemError

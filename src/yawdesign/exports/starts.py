@@ -5,8 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from yawdesign.exports.ports import Setting
-from yawdesign.hunting.critical_damping import critical_damping
-from yawdesign.hunting.eigenvalues import core_eigenvalues
+from yawdesign.hunting.old import core_eigenvalues, critical_damping
 from yawdesign.hunting.routh import TIME_UNIT
 
 NOWHERE = 1e5, 20.0  # [N s/m], [rad/s]: where a bogie has no critical value, any start is as good

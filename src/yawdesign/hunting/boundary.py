@@ -3,7 +3,7 @@
 Every graph comes from the same generic code as the numbers do, fed with SX symbols.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
 import casadi as ca
@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from yawdesign.hunting.hurwitz import hurwitz_minors as generic_minors
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.hunting.routh import routh_column as generic_column
-from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.old import characteristic, paper_coefficients
 from yawdesign.vehicle.polynomials import Polynomial, evaluate, scale_variable
+from yawdesign.vehicle.vehicle import Model, Vehicle
 
 Names = tuple[str, ...]
 
@@ -27,36 +26,36 @@ def _symbols(names: Names) -> tuple[ca.SX, dict[str, ca.SX]]:
     return vector, {name: vector[i] for i, name in enumerate(names)}
 
 
-def parameter_names(p: Parameters) -> Names:
+def parameter_names(p: Iterable[str]) -> Names:
     """Return the names that make up the parameter vector of the graphs: all but C_s."""
     return tuple(name for name in p if name != "C_s")
 
 
 @lru_cache
-def routh_column(names: Names, kind: str = "power", equations: str = "reciprocal") -> ca.Function:
+def routh_column(model: Model, names: Names) -> ca.Function:
     """Return Routh's column of the coupled motion as a CasADi Function of the parameter vector and C_s.
 
     The polynomial is taken in s / (100 rad/s); the signs of the entries decide.
     """
     p, values = _symbols(names)
     C_s = ca.SX.sym("C_s")
-    core = scale_variable(characteristic(values, kind=kind, equations=equations).core(C_s), TIME_UNIT)
+    core = scale_variable(model.at(values).coupled.polynomial(C_s), TIME_UNIT)
     return ca.Function("routh_column", [p, C_s], [ca.vertcat(*generic_column(core))], ["p", "C_s"], ["column"])
 
 
 @lru_cache
-def hurwitz_minors(names: Names, kind: str = "power", equations: str = "reciprocal") -> ca.Function:
+def hurwitz_minors(model: Model, names: Names) -> ca.Function:
     """Return sign and log10 of Delta_1 ... Delta_26 (16 without motors) as a CasADi Function of p and C_s."""
     p, values = _symbols(names)
     C_s = ca.SX.sym("C_s")
-    chi = paper_coefficients(values, C_s, kind=kind, equations=equations, unit=TIME_UNIT)
+    chi = model.at(values, C_s=C_s).paper_coefficients(TIME_UNIT)
     signs, logarithms = generic_minors(chi, functions=ca)
     outputs = [ca.vertcat(*signs), ca.vertcat(*logarithms)]
     return ca.Function("hurwitz_minors", [p, C_s], outputs, ["p", "C_s"], ["sign", "log10"])
 
 
 @lru_cache
-def boundary(names: Names, kind: str = "power", equations: str = "reciprocal") -> ca.Function:
+def boundary(model: Model, names: Names) -> ca.Function:
     """Return the equations of the stability boundary, scaled to order one.
 
     Inputs: ``z`` = (ln C_s, omega / 100), ``p``; output: real and imaginary part of A(j w) + C_s B(j w), divided by
@@ -64,8 +63,7 @@ def boundary(names: Names, kind: str = "power", equations: str = "reciprocal") -
     """
     p, values = _symbols(names)
     z = ca.SX.sym("z", 2)
-    c = characteristic(values, kind=kind, equations=equations)
-    core = scale_variable(c.core(ca.exp(z[0])), TIME_UNIT)
+    core = scale_variable(model.at(values).coupled.polynomial(ca.exp(z[0])), TIME_UNIT)
     real, imaginary = _on_axis(core, z[1])
     size = evaluate(core, z[1])
     return ca.Function("boundary", [z, p], [ca.vertcat(real, imaginary) / size], ["z", "p"], ["g"])
@@ -79,30 +77,30 @@ def _on_axis(p: Polynomial, omega: ca.SX) -> tuple[ca.SX, ca.SX]:
 
 
 @lru_cache
-def boundary_slope(names: Names, kind: str = "power", equations: str = "reciprocal") -> ca.Function:
+def boundary_slope(model: Model, names: Names) -> ca.Function:
     """Return d ln C_s / d p along the boundary by the implicit function theorem: (z, p) -> slope.
 
     One reverse sweep with l from J' l = (1, 0), where J = d g / d z. By Cramer's rule, so that a singular J gives
     numbers that are not finite; a linear solver would end the evaluation.
     """
     z, p = ca.SX.sym("z", 2), ca.SX.sym("p", len(names))
-    g = boundary(names, kind, equations)(z, p)
+    g = boundary(model, names)(z, p)
     J = ca.jacobian(g, z)
     weights = ca.vertcat(J[1, 1], -J[0, 1]) / (J[0, 0] * J[1, 1] - J[0, 1] * J[1, 0])
     return ca.Function("boundary_slope", [z, p], [-ca.jtimes(g, p, weights, True)], ["z", "p"], ["slope"])
 
 
 @lru_cache
-def rootfinder(names: Names, kind: str = "power", equations: str = "reciprocal", method: str = "newton") -> ca.Function:
+def rootfinder(model: Model, names: Names, method: str = "newton") -> ca.Function:
     """Return the rootfinder of `boundary`: (z0, p) -> z. Of CasADi's methods only fast_newton becomes C code."""
-    g = boundary(names, kind, equations)
+    g = boundary(model, names)
     z, p = ca.SX.sym("z", 2), ca.SX.sym("p", len(names))
     problem = {"x": z, "p": p, "g": g(z, p)}
     return ca.rootfinder("critical", method, problem, {"abstol": 1e-14, "max_iter": 50, "error_on_fail": False})
 
 
 @lru_cache
-def critical_damping(names: Names, kind: str = "power", equations: str = "reciprocal") -> ca.Function:
+def critical_damping(model: Model, names: Names) -> ca.Function:
     """Return a critical value and its derivatives as a CasADi Function.
 
     Returns
@@ -113,21 +111,19 @@ def critical_damping(names: Names, kind: str = "power", equations: str = "recipr
         too easily), ``gradient`` of C_s with respect to p and ``hessian``, both by implicit differentiation.
     """
     p, start, omega = ca.MX.sym("p", len(names)), ca.MX.sym("C_s"), ca.MX.sym("omega")
-    z = rootfinder(names, kind, equations)(ca.vertcat(ca.log(start), omega / TIME_UNIT), p)
+    z = rootfinder(model, names)(ca.vertcat(ca.log(start), omega / TIME_UNIT), p)
     C_s = ca.exp(z[0])
-    residual = ca.norm_2(boundary(names, kind, equations)(z, p))  # norm_inf of NaN is 0
+    residual = ca.norm_2(boundary(model, names)(z, p))  # norm_inf of NaN is 0
     hessian, gradient = ca.hessian(C_s, p)
     outputs = [C_s, z[1] * TIME_UNIT, residual, gradient, hessian]
     labels = ["C_s_critical", "omega_critical", "residual", "gradient", "hessian"]
     return ca.Function("critical_damping", [p, start, omega], outputs, ["p", "C_s", "omega"], labels)
 
 
-def polish(
-    p: Parameters, guesses: Sequence[tuple[float, float]], *, kind: str = "power", equations: str = "reciprocal"
-) -> list[tuple[float, float]]:
+def polish(vehicle: Vehicle, guesses: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
     """Return (C_s, omega) of each guess after the rootfinder; a guess that it leads astray is kept as it is."""
-    names = parameter_names(p)
-    solve, vector = rootfinder(names, kind, equations), np.array([p[name] for name in names])
+    names = parameter_names(vehicle.p)
+    solve, vector = rootfinder(vehicle.model, names), np.array([vehicle.p[name] for name in names])
     return [_polish(solve, vector, C_s, omega) for C_s, omega in guesses]
 
 

@@ -13,9 +13,8 @@ from itertools import cycle, pairwise
 from typing import Any
 
 from yawdesign.problem import exact
-from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.old import characteristic, paper_coefficients
 from yawdesign.vehicle.polynomials import Polynomial, add, evaluate, even_odd, multiply, scale, trim
+from yawdesign.vehicle.vehicle import Vehicle
 
 # Bits of the first and the last attempt, and how many must be proved of every result. A double has 53.
 FIRST_PRECISION, LAST_PRECISION, ENOUGH = 128, 8192, 60
@@ -54,23 +53,21 @@ class Certificate:
     unstable_roots: tuple[int, ...]
 
 
-def certify(p: Parameters, *, kind: str = "power", equations: str = "reciprocal") -> Certificate:
+def certify(vehicle: Vehicle) -> Certificate:
     """Return all critical values of the yaw damping and the number of unstable roots between them.
 
     Parameters
     ----------
-    p : mapping
-        Symbols of Table I in SI units and ``v``. A float stands for its shortest decimal; so a speed of 300 km/h is
-        exactly ``Fraction(250, 3)``.
-    kind, equations : str
-        As in `yawdesign.vehicle.catalogue.bogie`.
+    vehicle : Vehicle
+        A float stands for its shortest decimal; so a speed of 300 km/h is exactly ``Fraction(250, 3)``. Its own C_s is
+        not looked at.
     """
-    found = critical_values(p, kind=kind, equations=equations)
-    counts = [unstable_roots(p, C_s, kind=kind, equations=equations) for C_s in _between([x.C_s for x in found])]
+    found = critical_values(vehicle)
+    counts = [unstable_roots(vehicle, C_s) for C_s in _between([x.C_s for x in found])]
     return Certificate(found, tuple(counts))
 
 
-def critical_values(p: Parameters, *, kind: str = "power", equations: str = "reciprocal") -> tuple[CertifiedValue, ...]:
+def critical_values(vehicle: Vehicle) -> tuple[CertifiedValue, ...]:
     """Return every C_s > 0 at which a pair of roots lies on the imaginary axis, in ascending order.
 
     With A(j w) = E_A(x) + j w O_A(x), x = w^2, and B alike, ``A + C_s B = 0`` is two real equations linear in C_s.
@@ -79,18 +76,18 @@ def critical_values(p: Parameters, *, kind: str = "power", equations: str = "rec
 
     Parameters
     ----------
-    p, kind, equations
+    vehicle
         As in `certify`.
 
     Examples
     --------
     >>> from yawdesign import table1
-    >>> bogie = {**table1().bogie.parameters(), "v": Fraction(250, 3)}
-    >>> [f"{x.C_s:.6f} at {x.omega:.6f} rad/s" for x in critical_values(bogie, equations="as-printed")]
+    >>> (vehicle,) = Vehicle.of(table1(equations="as-printed"))
+    >>> [f"{x.C_s:.6f} at {x.omega:.6f} rad/s" for x in critical_values(vehicle)]
     ['90702.889779 at 23.154737 rad/s']
     """
-    c = characteristic(_exact(p), kind=kind, equations=equations)
-    (even_a, odd_a), (even_b, odd_b) = even_odd(c.A), even_odd(c.B)
+    A, B = _exact(vehicle).coupled.coefficients
+    (even_a, odd_a), (even_b, odd_b) = even_odd(A), even_odd(B)
     resultant = _flint_polynomial(add(multiply(even_b, odd_a), scale(multiply(even_a, odd_b), -1)))
     parts = (even_a, even_b, odd_a, odd_b)
     return tuple(sorted(_at_the_precision_needed(_solutions, resultant, *parts), key=lambda x: x.C_s))
@@ -111,12 +108,12 @@ def _solutions(
     return values
 
 
-def unstable_roots(p: Parameters, C_s: Fraction | float, *, kind: str = "power", equations: str = "reciprocal") -> int:
+def unstable_roots(vehicle: Vehicle, C_s: Fraction | float) -> int:
     """Return the number of roots of the coupled motion in the right half-plane, by a Sturm chain without rounding.
 
     Parameters
     ----------
-    p, kind, equations
+    vehicle
         As in `certify`.
     C_s : Fraction or float
         Damping of the pair of yaw dampers [N s/m].
@@ -126,7 +123,7 @@ def unstable_roots(p: Parameters, C_s: Fraction | float, *, kind: str = "power",
     ArithmeticError
         If there is a pair of roots s, -s: C_s is exactly a critical value.
     """
-    core = characteristic(_exact(p), kind=kind, equations=equations).core(_rational(C_s))
+    core = _exact(vehicle).coupled.polynomial(_rational(C_s))
     # p(j w) / j^n = U(w) - j V(w): the chain of U and V counts how often the argument turns as w goes along the axis.
     down = [a * sign for a, sign in zip(reversed(trim(core)), cycle((1, 1, -1, -1)), strict=False)]
     upper = _flint_polynomial(tuple(a if k % 2 == 0 else 0 for k, a in enumerate(down))[::-1])
@@ -147,7 +144,7 @@ def _sturm_index(chain: Sequence[Any]) -> int:
     return int(chain[0].degree() - (changes_left - changes_right)) // 2
 
 
-def hurwitz_polynomial(p: Parameters, *, kind: str = "power", equations: str = "reciprocal") -> tuple[Fraction, ...]:
+def hurwitz_polynomial(vehicle: Vehicle) -> tuple[Fraction, ...]:
     """Return E_0 ... E_49 of eq. (11), the Hurwitz minor Delta_25 as a polynomial in C_s, highest power first.
 
     The paper sets Delta_26 = 0. As Delta_26 = chi_26 Delta_25, and chi_26 (the matrix at s = 0) does not depend on
@@ -156,21 +153,21 @@ def hurwitz_polynomial(p: Parameters, *, kind: str = "power", equations: str = "
 
     Parameters
     ----------
-    p, kind, equations
-        As in `certify`. The factors that no yaw damper reaches are in it, as they are in (7).
+    vehicle
+        As in `certify`. The motions that no yaw damper reaches are in it, as they are in (7).
 
     Returns
     -------
     tuple of Fraction
         50 coefficients (30 without motors), exact, for s in 1/s and C_s in N s/m.
     """
-    from_flint, numbers = _flint(), _exact(p)
+    from_flint, numbers = _flint(), _exact(vehicle)
 
     def minor(C_s: Any) -> Any:
-        chi = paper_coefficients(numbers, C_s, kind=kind, equations=equations)
+        chi = numbers.replace(C_s=C_s).paper_coefficients()
         return from_flint.fmpq_mat(_hurwitz_matrix(chi)).det()
 
-    size = len(paper_coefficients(numbers, from_flint.fmpq(1), kind=kind, equations=equations)) - 1
+    size = len(numbers.replace(C_s=from_flint.fmpq(1)).paper_coefficients()) - 1
     # Every chi is at most quadratic in C_s (core times joint), and row by row the minor takes one from each of n - 1.
     places = [from_flint.fmpq(10_000 * k) for k in range(1, 2 * size)]
     values = _newton(places, [minor(C_s) for C_s in places])
@@ -271,8 +268,8 @@ def _flint_polynomial(p: Polynomial) -> Any:
     return _flint().fmpq_poly(list(p))
 
 
-def _exact(p: Parameters) -> dict[str, Any]:
-    return {name: _rational(value) for name, value in p.items()}
+def _exact(vehicle: Vehicle) -> Vehicle:
+    return vehicle.model.at({name: _rational(value) for name, value in vehicle.p.items()})
 
 
 def _rational(value: Fraction | float) -> Any:

@@ -12,12 +12,12 @@ from itertools import pairwise
 import numpy as np
 
 from yawdesign.hunting.boundary import polish
-from yawdesign.hunting.eigenvalues import backward_error, core_eigenvalues, count_undamped
+from yawdesign.hunting.eigenvalues import backward_error, count_undamped, motion_eigenvalues
 from yawdesign.hunting.many.critical_values import CriticalField, critical_field, recomputed
 from yawdesign.hunting.many.parameter_sets import Block
 from yawdesign.hunting.routh import TIME_UNIT
-from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.old import Characteristic, characteristic
+from yawdesign.vehicle.motions import Motion
+from yawdesign.vehicle.vehicle import Vehicle
 
 Interval = tuple[float, float]
 
@@ -78,37 +78,34 @@ class CriticalDamping:
         return tuple(i for i, n in zip(self.intervals, self.unstable_roots, strict=True) if n == 0)
 
 
-def critical_damping(p: Parameters, *, kind: str = "power", equations: str = "reciprocal") -> CriticalDamping:
+def critical_damping(vehicle: Vehicle) -> CriticalDamping:
     """Return all critical values of the yaw damping of the coupled motion.
 
     Parameters
     ----------
-    p : mapping
-        Symbols of Table I in SI units and ``v``, all floats.
-    kind, equations : str
-        As in `yawdesign.vehicle.catalogue.bogie`.
+    vehicle : Vehicle
+        Its numbers are floats; its own C_s is not looked at.
     """
-    block = Block(p, 1)
-    field = critical_field(block, kind=kind, equations=equations)
-    if not field.recomputed[0] and not _eigenvalues_agree(p, field, kind=kind, equations=equations):
-        field = recomputed(field, block, [0], kind=kind, equations=equations)
+    model, block = {"kind": vehicle.model.kind, "equations": vehicle.model.equations}, Block(vehicle.p, 1)
+    field = critical_field(block, **model)
+    if not field.recomputed[0] and not _eigenvalues_agree(vehicle, field):
+        field = recomputed(field, block, [0], **model)
     found = [*zip(*field.values_at(0), strict=True)]
     if not field.recomputed[0]:
-        found = polish(p, found, kind=kind, equations=equations)
+        found = polish(vehicle, found)
     counts = field.counts_at(0)
-    c = characteristic(p, kind=kind, equations=equations)
     values = tuple(
-        CriticalValue(C_s, omega, _becomes(before, after), _residual(c, C_s, omega))
+        CriticalValue(C_s, omega, _becomes(before, after), _residual(vehicle.coupled, C_s, omega))
         for (C_s, omega), (before, after) in zip(found, pairwise(counts), strict=True)
     )
     return CriticalDamping(values, counts, not field.unverified[0] and all(x.residual < TIGHT for x in values))
 
 
-def _eigenvalues_agree(p: Parameters, field: CriticalField, *, kind: str, equations: str) -> bool:
+def _eigenvalues_agree(vehicle: Vehicle, field: CriticalField) -> bool:
     """Return whether the eigenvalues count as many unstable roots in every interval."""
     values, _ = field.values_at(0)
-    places = _places(values, p["K_ds"])
-    found = [count_undamped(core_eigenvalues(p, C_s, kind=kind, equations=equations)) for C_s in places]
+    everywhere = vehicle.replace(C_s=np.array(_places(values, vehicle.p["K_ds"])))
+    found = count_undamped(motion_eigenvalues(everywhere, everywhere.coupled))
     return tuple(map(int, found)) == field.counts_at(0)
 
 
@@ -125,5 +122,5 @@ def _becomes(before: int, after: int) -> str:
     return "unstable" if after and not before else "neither"
 
 
-def _residual(c: Characteristic, C_s: float, omega: float) -> float:
-    return float(backward_error(c.core(C_s), 1j * np.asarray(omega)))
+def _residual(coupled: Motion, C_s: float, omega: float) -> float:
+    return float(backward_error(coupled.polynomial(C_s), 1j * np.asarray(omega)))

@@ -1,76 +1,71 @@
-"""Eigenvalues of the bogie, and the margins that are read from them."""
+"""Eigenvalues of a vehicle, motion by motion, and the margins that are read from them."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.hunting.routh import TIME_UNIT
-from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.elements import Link, Mass, Single, WheelRailContact
-from yawdesign.vehicle.old import StateSpace, bogie, folded, physical
-from yawdesign.vehicle.polynomials import Number, Polynomial, derivative, evaluate, scale_variable
+from yawdesign.vehicle.motions import Motion
+from yawdesign.vehicle.polynomials import Polynomial, derivative, evaluate, scale_variable
+from yawdesign.vehicle.state_space import fill
+from yawdesign.vehicle.vehicle import Vehicle
 
 
-def state_matrix(p: Parameters, C_s: Number, *, kind: str = "power", equations: str = "reciprocal") -> Float:
-    """Return the state matrix of the 25-state model (15 states without motors).
+def state_matrix(vehicle: Vehicle) -> Float:
+    """Return the state matrix of a vehicle in the coordinates of each end (25 states, 15 without motors).
 
     Parameters
     ----------
-    p : mapping
-        Symbols of Table I in SI units and ``v``; numbers or arrays that broadcast against each other.
-    C_s : float or array
-        Damping of the pair of yaw dampers [N s/m].
-    kind, equations : str
-        As in `yawdesign.vehicle.catalogue.bogie`.
+    vehicle : Vehicle
+        With numbers or arrays that broadcast against each other.
 
     Returns
     -------
     ndarray, shape (..., n, n)
     """
-    return _dense(physical(bogie({**p, "C_s": C_s}, kind=kind, equations=equations)))
+    return _dense(vehicle.state_space.A, vehicle.state_space.size)
 
 
-def core_matrix(p: Parameters, C_s: Number, *, kind: str = "power", equations: str = "reciprocal") -> Float:
-    """Return the state matrix of the coupled motion alone, in half sums and half differences of both ends.
+def motion_matrix(vehicle: Vehicle, motion: Motion) -> Float:
+    """Return the state matrix of one motion of a vehicle, whose eigenvalues are the roots of its polynomial.
 
-    Its eigenvalues are the roots of `Characteristic.core`. Arguments as in `state_matrix`.
+    Parameters
+    ----------
+    vehicle : Vehicle
+        With numbers or arrays that broadcast against each other.
+    motion : Motion
+        One of its motions.
+
+    Returns
+    -------
+    ndarray, shape (..., n, n)
     """
-    elements = folded(bogie({**p, "C_s": C_s}, kind=kind, equations=equations))
-    decoupled = {"phi_m-"} | ({"phi_m+"} if equations == "as-printed" else set())
-    return _dense([e for e in elements if not _acts_within(e, decoupled)])
+    system = vehicle.folded_state_space
+    place = {state: k for k, state in enumerate(system.states_of(motion.coordinates))}
+    return _dense({(place[i], place[j]): x for (i, j), x in system.A.items() if i in place and j in place}, len(place))
 
 
-def _acts_within(element: Single, coordinates: set[str]) -> bool:
-    match element:
-        case Mass():
-            return element.coordinate in coordinates
-        case Link():
-            return set(element.force) <= coordinates
-        case WheelRailContact():
-            return element.y in coordinates
+def _dense(entries: Mapping[tuple[int, int], Any], size: int) -> Float:
+    shape = np.broadcast_shapes(*(np.shape(value) for value in entries.values()))
+    return np.asarray(fill(entries, np.zeros((*shape, size, size))))
 
 
-def _dense(elements: Sequence[Single]) -> Float:
-    system = StateSpace(elements)
-    shape = np.broadcast_shapes(*(np.shape(value) for value in system.entries.values()))
-    return np.asarray(system.fill(np.zeros((*shape, system.size, system.size))))
+def motion_eigenvalues(vehicle: Vehicle, motion: Motion) -> Complex:
+    """Return the eigenvalues of one motion of a vehicle [1/s] along the last axis. Parameters as in `motion_matrix`."""
+    return np.asarray(np.linalg.eigvals(motion_matrix(vehicle, motion)), dtype=complex)
 
 
-def eigenvalues(matrix: Float) -> Complex:
-    """Return the eigenvalues of one matrix [1/s], the least damped first, conjugates together."""
-    return in_order(np.asarray(np.linalg.eigvals(matrix), dtype=complex))
+def eigenvalues(vehicle: Vehicle) -> Complex:
+    """Return all eigenvalues of a vehicle of floats [1/s], the least damped first, conjugates together."""
+    return in_order(np.concatenate([motion_eigenvalues(vehicle, motion) for motion in vehicle.motions]))
 
 
 def in_order(s: Complex) -> Complex:
     """Return roots, the least damped first, conjugates together."""
     return np.asarray(sorted(s, key=lambda s: (-s.real, abs(s.imag), -s.imag)), dtype=complex)
-
-
-def core_eigenvalues(p: Parameters, C_s: Number, *, kind: str = "power", equations: str = "reciprocal") -> Complex:
-    """Return the eigenvalues of the coupled motion [1/s] along the last axis. Arguments as in `state_matrix`."""
-    return np.asarray(np.linalg.eigvals(core_matrix(p, C_s, kind=kind, equations=equations)), dtype=complex)
 
 
 def roots(p: Polynomial) -> Complex:

@@ -14,9 +14,8 @@ from itertools import pairwise
 
 from yawdesign.hunting.routh import routh_column
 from yawdesign.problem import exact
-from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.old import Characteristic, characteristic
 from yawdesign.vehicle.polynomials import Polynomial, add, derivative, even_odd, multiply, scale, trim
+from yawdesign.vehicle.vehicle import Vehicle
 
 FIRST_DIGITS, LAST_DIGITS = 50, 1600
 FAR = Decimal("1e60")  # from the least and the largest critical value to where 0 and infinity are looked at
@@ -53,43 +52,42 @@ class ExactValues:
         )
 
 
-def exact_critical_values(p: Parameters, *, kind: str, equations: str) -> ExactValues:
+def exact_critical_values(vehicle: Vehicle) -> ExactValues:
     """Return all critical values of the yaw damping of the coupled motion.
 
     Parameters
     ----------
-    p : mapping
-        Symbols of Table I in SI units and ``v``. A float stands for its shortest decimal.
-    kind, equations : str
-        As in `yawdesign.vehicle.catalogue.bogie`.
+    vehicle : Vehicle
+        A float stands for its shortest decimal; its own C_s is not looked at.
 
     Raises
     ------
     NotDecidedError
         If even the most digits give no answer that twice as many confirm, such as for values that coincide.
     """
-    c = characteristic({name: exact(x) for name, x in p.items()}, kind=kind, equations=equations)
+    A, B = vehicle.model.at({name: exact(x) for name, x in vehicle.p.items()}).coupled.coefficients
     digits, before = FIRST_DIGITS, None
     while digits <= LAST_DIGITS:
-        found = _with_digits(c, digits)
+        found = _with_digits(A, B, digits)
         if found and before and found.same(before):
             return found
         digits, before = 2 * digits, found
     raise NotDecidedError(f"{LAST_DIGITS} digits do not decide")
 
 
-def _with_digits(c: Characteristic, digits: int) -> ExactValues | None:
+def _with_digits(A: Polynomial, B: Polynomial, digits: int) -> ExactValues | None:
     """Return the values computed with so many digits, or nothing where these leave a step open."""
     with decimal.localcontext(decimal.Context(prec=digits, Emax=decimal.MAX_EMAX, Emin=decimal.MIN_EMIN)):
         try:
-            return _values(c, digits)
+            return _values(A, B, digits)
         except ArithmeticError:  # also decimal's own: 0/0, or what overflows
             return None
 
 
-def _values(c: Characteristic, digits: int) -> ExactValues:
-    A, B = _decimals(c.A), _decimals(c.B)
-    roots = [_refined(chain[0], low, high, digits) for chain, low, high in _isolated(_phase(c), digits)]
+def _values(exact_a: Polynomial, exact_b: Polynomial, digits: int) -> ExactValues:
+    A, B = _decimals(exact_a), _decimals(exact_b)
+    phase = _phase(exact_a, exact_b)
+    roots = [_refined(chain[0], low, high, digits) for chain, low, high in _isolated(phase, digits)]
     critical = sorted((C_s, x.sqrt()) for x in roots if (C_s := _damping(A, B, x, digits)) > 0)
     counts = tuple(_unstable(add(A, scale(B, C_s))) for C_s in _places([C_s for C_s, _ in critical]))
     steps = [after - before for before, after in pairwise(counts)]
@@ -98,9 +96,9 @@ def _values(c: Characteristic, digits: int) -> ExactValues:
     return ExactValues(tuple(critical), counts)
 
 
-def _phase(c: Characteristic) -> Digits:
+def _phase(A: Polynomial, B: Polynomial) -> Digits:
     """Return E_B O_A - E_A O_B in x = w^2, without its roots at zero."""
-    (even_a, odd_a), (even_b, odd_b) = even_odd(c.A), even_odd(c.B)
+    (even_a, odd_a), (even_b, odd_b) = even_odd(A), even_odd(B)
     F = trim(add(multiply(even_b, odd_a), scale(multiply(even_a, odd_b), -1)))
     return _decimals(trim(F[::-1])[::-1])
 

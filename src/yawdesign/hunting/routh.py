@@ -126,15 +126,32 @@ def damped_more(p: Polynomial, zeta: Number) -> NDArray[np.bool_]:
 def count_unstable(p: Polynomial) -> int:
     """Return the number of roots not in the left half-plane: sign changes of Routh's column, and roots at zero.
 
-    -1 if the scheme breaks down.
+    Where a whole row is zero, the row above it is a factor with roots s and -s: it goes on with the derivative of that
+    factor, and what this does not count to the right half-plane lies on the axis in pairs. -1 if the scheme breaks
+    down.
     """
     zeros = next((k for k, a in enumerate(p) if a != 0), 0)
-    p = p[zeros:]
     with np.errstate(all="ignore"):
-        column = np.array(routh_column(_scaled(p)), dtype=float)
+        column, axis = _column_without_zero_rows(_scaled(p[zeros:]))
     if not np.all(np.isfinite(column)) or np.any(column == 0):
         return -1
-    return zeros + int(np.sum(np.sign(column[:-1]) != np.sign(column[1:])))
+    return zeros + axis + int(np.sum(np.sign(column[:-1]) != np.sign(column[1:])))
+
+
+def _column_without_zero_rows(p: Polynomial) -> tuple[NDArray[np.float64], int]:
+    """Return Routh's column, and how many roots lie on the axis because a row was zero."""
+    rows = routh_rows(p)
+    zero = next((k for k, row in enumerate(rows) if not np.any(np.asarray(row, dtype=float))), None)
+    column = np.array([row[0] for row in rows[:zero]], dtype=float)
+    if zero is None:
+        return column, 0
+    # Entries of a row stand at every second power of w, the first at the highest, which is the number of rows below.
+    above = rows[zero - 1]
+    degree = len(rows) - zero
+    slope = [times(degree - k, a) for k, a in enumerate(above[:-1])]
+    below = np.array([row[0] for row in _rows(list(above), slope)], dtype=float)
+    changes = int(np.sum(np.sign(below[:-1]) != np.sign(below[1:])))
+    return np.concatenate([column, below[1:]]), degree - 2 * changes
 
 
 def _scaled(p: Polynomial) -> Polynomial:

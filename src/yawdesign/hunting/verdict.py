@@ -8,22 +8,19 @@ import numpy as np
 from yawdesign.hunting.arrays import Complex
 from yawdesign.hunting.eigenvalues import (
     backward_error,
-    core_eigenvalues,
     count_undamped,
     damping_ratio,
     decay_rate,
-    eigenvalues,
     in_order,
+    motion_eigenvalues,
     polished,
-    roots,
-    state_matrix,
 )
 from yawdesign.hunting.routh import count_unstable
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.result import Result
-from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.old import DAMPER_FACTOR, Characteristic, characteristic
-from yawdesign.vehicle.polynomials import Polynomial, product
+from yawdesign.vehicle.elements import Link
+from yawdesign.vehicle.polynomials import Polynomial
+from yawdesign.vehicle.vehicle import Vehicle
 
 EXACT = 1e-9  # largest backward error with which an eigenvalue counts as a root of the characteristic polynomial
 
@@ -112,59 +109,49 @@ def stability(problem: Problem) -> Stability:
     >>> round(yd.stability(yd.table1(equations="as-printed")).spectral_abscissa, 8)
     -1.29853702
     """
-    p, C_s = problem.bogie.parameters(), given_damping(problem)
+    given_damping(problem)
     variables = problem.design.variables
-    results = [stability_at({**p, "v": v}, C_s, variables, **problem.model) for v in problem.speeds]
+    results = [stability_at(vehicle, variables) for vehicle in Vehicle.of(problem)]
     return min(results, key=lambda result: (result.stable, result.decay_rate))
 
 
-def stability_at(p: Parameters, C_s: float, variables: Collection[str] = (), *, kind: str, equations: str) -> Stability:
-    """Return the stability at given parameters.
+def stability_at(vehicle: Vehicle, variables: Collection[str] = ()) -> Stability:
+    """Return the stability of a vehicle.
 
     Parameters
     ----------
-    p : mapping
-        Symbols of Table I in SI units and ``v``, floats.
-    C_s : float
-        Damping of the pair of yaw dampers [N s/m].
+    vehicle : Vehicle
+        Its numbers are floats, ``C_s`` [N s/m] among them.
     variables : collection of str
         Design variables; they decide which decoupled modes count in the margins.
-    kind, equations : str
-        As in `yawdesign.vehicle.catalogue.bogie`.
     """
-    c = characteristic(p, kind=kind, equations=equations)
-    whole = c.full(C_s)
-    s = _roots(whole, eigenvalues(state_matrix(p, C_s, kind=kind, equations=equations)))
-    fixed = fixed_factors(p, variables, kind=kind, equations=equations)
-    moved = np.concatenate(
-        [
-            _roots(c.core(C_s), core_eigenvalues(p, C_s, kind=kind, equations=equations)),
-            *(roots(c.factors[n]) for n in c.factors if n not in fixed),
-        ]
-    )
-    unstable = int(count_undamped(s))
-    counted = _count(c, C_s)
-    agree = counted == unstable and bool(np.all(backward_error(whole, s) < EXACT))
+    C_s, movable = float(vehicle.C_s), vehicle.model.movable(variables)
+    polynomials = {motion.name: motion.polynomial(C_s) for motion in vehicle.motions}
+    s = {x.name: roots_of(polynomials[x.name], motion_eigenvalues(vehicle, x)) for x in vehicle.motions}
+    every, moved = in_order(np.concatenate([*s.values()])), np.concatenate([s[name] for name in movable])
+    exact = all(np.all(backward_error(p, s[name]) < EXACT) for name, p in polynomials.items())
+    unstable = int(count_undamped(every))
+    counts = [count_unstable(p) for p in polynomials.values()]  # -1 where Routh's array breaks down
+    fixed = {name: s[name] for name in s if name not in movable}
     return Stability(
-        stable=unstable == 0 and counted == 0,
-        spectral_abscissa=float(s.real.max()),
+        stable=unstable == 0 and not any(counts),
+        spectral_abscissa=float(every.real.max()),
         decay_rate=float(decay_rate(moved)),
         damping_ratio=float(damping_ratio(moved)),
-        eigenvalues=tuple(complex(x) for x in s),
-        modes=modes(s),
-        fixed_modes={n: tuple(complex(x) for x in roots(c.factors[n])) for n in fixed} | _damper_mode(p, C_s),
-        C_s=float(C_s),
-        speed=float(p["v"]),
+        eigenvalues=tuple(complex(x) for x in every),
+        modes=modes(every),
+        fixed_modes={name: tuple(complex(x) for x in roots) for name, roots in fixed.items()}
+        | _between_pieces(vehicle),
+        C_s=C_s,
+        speed=float(vehicle.v),
         unstable_roots=unstable,
-        checked=agree,
+        checked=exact and min(counts) >= 0 and sum(counts) == unstable,
     )
 
 
-def _roots(p: Polynomial, s: Complex) -> Complex:
+def roots_of(p: Polynomial, s: Complex) -> Complex:
     """Return eigenvalues, polished where they are no roots of their polynomial, the least damped first."""
-    if np.all(backward_error(p, s) < EXACT):
-        return s
-    return in_order(polished(p, s))
+    return in_order(s if np.all(backward_error(p, s) < EXACT) else polished(p, s))
 
 
 def modes(s: Complex) -> tuple[Mode, ...]:
@@ -175,27 +162,8 @@ def modes(s: Complex) -> tuple[Mode, ...]:
     )
 
 
-def _count(c: Characteristic, C_s: float) -> int:
-    """Return the number of roots that are not in the left half-plane, by Routh's array; -1 if it breaks down."""
-    core = count_unstable(c.core(C_s))
-    return core if core < 0 else core + sum(undamped_roots(p) for p in c.factors.values())
-
-
-def undamped_roots(quadratic: tuple[float, ...]) -> int:
-    """Return how many roots of a decoupled motion k + c s + m s^2 are not damped, from the signs of k and c."""
-    k, c, _ = quadratic
-    if k > 0 and c > 0:
-        return 0
-    return 1 if c > 0 else 2
-
-
-def _damper_mode(p: Parameters, C_s: float) -> dict[str, tuple[complex, ...]]:
-    return {DAMPER_FACTOR: (complex(-p["K_ds"] / C_s),)} if C_s else {}
-
-
-def fixed_factors(p: Parameters, variables: Collection[str], *, kind: str, equations: str) -> tuple[str, ...]:
-    """Return the names of the decoupled motions whose polynomial no design variable changes."""
-    changed = {**p, **{name: p[name] * 1.5 + 1 for name in variables if name in p}}
-    before = characteristic(p, kind=kind, equations=equations).factors
-    after = characteristic(changed, kind=kind, equations=equations).factors
-    return tuple(name for name in before if product([before[name]]) == product([after[name]]))
+def _between_pieces(vehicle: Vehicle) -> dict[str, tuple[complex, ...]]:
+    """Return the roots -K/c of equal dampers that work against each other: one link stands for them in the model."""
+    links = [e for e in vehicle.physical if isinstance(e, Link) and e.pieces > 1]
+    laws = [(link.name, law) for link in links for law in link.maxwell if law.c]
+    return {f"{name}s against each other": (complex(-law.K / law.c),) for name, law in laws}

@@ -3,11 +3,12 @@
 import numpy as np
 
 from yawdesign.hunting.arrays import Bools, Complex, Float
-from yawdesign.hunting.eigenvalues import MARGINS, backward_error, core_matrix, count_undamped
+from yawdesign.hunting.eigenvalues import MARGINS, backward_error, count_undamped
 from yawdesign.hunting.many import counts as kernels
 from yawdesign.hunting.many.parameter_sets import Block
+from yawdesign.hunting.old import core_matrix, fixed_factors
 from yawdesign.hunting.routh import TIME_UNIT
-from yawdesign.hunting.verdict import EXACT, fixed_factors
+from yawdesign.hunting.verdict import EXACT
 from yawdesign.study.question import Question
 from yawdesign.vehicle.polynomials import Polynomial, scale_variable
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from yawdesign.hunting.verdict import stability_at
+from yawdesign.hunting.old import stability_at
 from yawdesign.study.question import Question
 
 Point = Mapping[str, float]

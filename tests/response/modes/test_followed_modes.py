@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
 
 import yawdesign as yd
-from yawdesign.hunting.eigenvalues import state_matrix
+from yawdesign.hunting.old import state_matrix
 from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.table import field_name
 from yawdesign.response.modes.eigenvectors import spectrum

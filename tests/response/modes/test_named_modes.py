@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import yawdesign as yd
-from yawdesign.hunting.eigenvalues import state_matrix
+from yawdesign.hunting.old import state_matrix
 from yawdesign.response.modes.named_modes import modes_at
 from yawdesign.vehicle.old import StateSpace, bogie, physical
 

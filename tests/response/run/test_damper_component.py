@@ -6,7 +6,7 @@ import math
 import pytest
 
 import yawdesign as yd
-from yawdesign.hunting.eigenvalues import core_eigenvalues
+from yawdesign.hunting.old import core_eigenvalues
 from yawdesign.response.run.damper_component import dynamic_stiffness
 
 PROBLEM = yd.table1(equations="as-printed").replace(C_s="1 046 770 N s/m")

@@ -21,6 +21,7 @@ from yawdesign.hunting.many.parameter_sets import Block
 from yawdesign.hunting.many.root_isolation import isolate
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.vehicle.polynomials import even_odd
+from yawdesign.vehicle.vehicle import Model
 
 ACCURATE = 5e-9  # largest relative error of a critical value that rounding may cause
 ROUNDING = 2e-15  # of the coefficients
@@ -98,7 +99,7 @@ def recomputed(
 
 def _exact(p: dict[str, float], *, kind: str, equations: str) -> ExactValues | None:
     try:
-        return exact_critical_values(p, kind=kind, equations=equations)
+        return exact_critical_values(Model(kind, equations).at(p))
     except NotDecidedError:
         return None
 

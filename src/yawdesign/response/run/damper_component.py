@@ -5,7 +5,8 @@ from math import atan2, pi
 
 import numpy as np
 
-from yawdesign.hunting.eigenvalues import core_eigenvalues, decay_rate
+from yawdesign.hunting.eigenvalues import decay_rate
+from yawdesign.hunting.old import core_eigenvalues
 from yawdesign.problem.result import Result
 from yawdesign.response.run.frequency import outputs
 from yawdesign.response.run.run import Run
