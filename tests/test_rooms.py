@@ -2,6 +2,7 @@
 
 import ast
 import importlib
+import importlib.util
 import inspect
 import sys
 from collections import Counter
@@ -12,9 +13,11 @@ import pytest
 
 import yawdesign
 
-ROOMS = ("problem", "vehicle", "hunting", "response", "damper", "study", "exports", "output", "cli", "__main__")
-ROOT = Path(yawdesign.__file__).parent
-MODULES = sorted(path for path in ROOT.rglob("*.py") if path != ROOT / "__init__.py")
+FILE = Path(__file__).parents[1] / "docs" / "figures" / "rooms.py"
+SPEC = importlib.util.spec_from_file_location("rooms", FILE)
+rooms = importlib.util.module_from_spec(SPEC)
+SPEC.loader.exec_module(rooms)
+ROOT, MODULES, NAMED, ROOMS = rooms.ROOT, rooms.MODULES, rooms.NAMED, (*rooms.ROOMS, "__main__")
 # What a room may import from outside, where that is restricted.
 FORBIDDEN = {"problem": {"casadi", "scipy", "numpy", "matplotlib"}, "output": {"casadi"}}
 # Names of files that say nothing of what is inside.
@@ -24,69 +27,33 @@ VAGUE = {
 }
 
 
-def room_of(path):
-    """Return the room a module stands in: the first folder, or the module's own name."""
-    return path.relative_to(ROOT).parts[0].removesuffix(".py")
-
-
-def name_of(path):
-    """Return the full name of a module."""
-    parts = path.relative_to(ROOT).with_suffix("").parts
-    return ".".join(["yawdesign", *(part for part in parts if part != "__init__")])
-
-
-NAMES = {name_of(path): path for path in MODULES}
-
-
-def imports(path):
-    """Yield the full name of everything that a module imports: in functions, for type checkers, by a text."""
-    package = ("yawdesign", *path.relative_to(ROOT).parts[:-1])
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Constant) and node.value in NAMES:
-            yield node.value
-        elif isinstance(node, ast.Import):
-            yield from (name.name for name in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            base = package[: len(package) + 1 - node.level] if node.level else ()
-            origin = ".".join([*base, *filter(None, [node.module])])
-            yield from (f"{origin}.{name.name}" for name in node.names)
-
-
-def inside(path):
-    """Yield the rooms a module imports from. The version stands above all rooms and is open to each."""
-    for name in imports(path):
-        first, *rest = name.split(".")
-        if first == "yawdesign" and rest != ["__version__"]:
-            yield rest[0] if rest else "the package as a whole"
-
-
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_imports_go_to_the_left(path):
-    own = room_of(path)
+    own = rooms.room_of(path)
     assert own in ROOMS, f"{own} has no place in the order of rooms"
-    for room in inside(path):
+    for room in rooms.rooms_before(path):
         assert room in ROOMS, f"{path.name} imports yawdesign.{room}, which is in no room"
         assert ROOMS.index(room) <= ROOMS.index(own), f"{own} must not import from {room}"
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_what_rooms_may_import_from_outside(path):
-    outside = {name.split(".")[0] for name in imports(path)} - {"yawdesign"}
-    if room_of(path) == "vehicle":
+    outside = {name.split(".")[0] for name in rooms.imports(path)} - {"yawdesign"}
+    if rooms.room_of(path) == "vehicle":
         assert outside <= set(sys.stdlib_module_names)
-    assert not outside & FORBIDDEN.get(room_of(path), set())
+    assert not outside & FORBIDDEN.get(rooms.room_of(path), set())
 
 
 def modules_of(path):
     """Return the modules of the package that a module imports, or imports something from."""
-    found = {name if name in NAMES else name.rpartition(".")[0] for name in imports(path)}
-    return found & set(NAMES) - {name_of(path)}
+    found = {name if name in NAMED else name.rpartition(".")[0] for name in rooms.imports(path)}
+    return found & set(NAMED) - {rooms.name_of(path)}
 
 
 def test_no_module_comes_back_to_itself():
     """Not by imports inside functions either: who opens a module goes on, and never around."""
     try:
-        TopologicalSorter({name: modules_of(path) for name, path in NAMES.items()}).prepare()
+        TopologicalSorter({name: modules_of(path) for name, path in NAMED.items()}).prepare()
     except CycleError as error:
         pytest.fail(" -> ".join(error.args[1]))
 
@@ -108,8 +75,13 @@ def test_what_shows_a_result_is_there(home, name):
         assert callable(getattr(importlib.import_module(module), function))
 
 
+def test_the_drawing_is_of_these_rooms():
+    drawn = FILE.with_suffix(".svg").read_text(encoding="utf-8")
+    assert drawn == rooms.drawing(), "python docs/figures/rooms.py draws it anew"
+
+
 def test_something_was_looked_at():
     assert "yawdesign.hunting.verdict" in modules_of(ROOT / "response" / "run" / "simulate.py")
     assert "yawdesign.output.sweep_plots" in modules_of(ROOT / "output" / "plots.py")
-    assert {room_of(path) for path in MODULES} >= {"problem", "vehicle", "hunting"}
-    assert "yawdesign.vehicle.polynomials.Number" in set(imports(ROOT / "vehicle" / "elements.py"))
+    assert {rooms.room_of(path) for path in MODULES} >= {"problem", "vehicle", "hunting"}
+    assert "yawdesign.vehicle.polynomials.Number" in set(rooms.imports(ROOT / "vehicle" / "elements.py"))
