@@ -38,12 +38,12 @@ class LabelledData(Result):
     of, quantity : str
         What was asked for, and the same with ``margin`` resolved.
     unit : str
-        Unit of the values.
+        Unit of the values, SI.
     axes : tuple of Axis
         Name, unit and values of each axis, in the order given.
     columns : mapping name -> ndarray
-        All that was found. The first dimensions are the axes; a further one counts several values at a point, in
-        rising order and filled up with NaN.
+        All that was found, in SI; `to_dict` has the unit of each. The first dimensions are the axes; a further one
+        counts several values at a point, in rising order and filled up with NaN.
     finished, recomputed, unverified : ndarray of bool
         Points that have an answer; that failed a check of the fast way and were computed the thorough way; where two
         independent ways differ, so that there is no number (NaN, or not stable).
@@ -63,7 +63,7 @@ class LabelledData(Result):
 
     @property
     def main(self) -> NDArray[Any]:
-        """The column that `values` shows."""
+        """The column that `values` shows [`unit`]."""
         return self.columns[MAIN.get(self.quantity, self.quantity)]
 
     @property

@@ -41,7 +41,7 @@ class Sweep(LabelledData):
 
     @property
     def values(self) -> Array:
-        """The answers, one dimension for each axis; of several values at a point a tuple."""
+        """The answers [`unit`], one dimension for each axis; of several values at a point a tuple."""
         several = self.main.ndim > len(self.axes)
         return _tuples(self.main) if several else self.main
 
