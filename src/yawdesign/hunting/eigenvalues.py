@@ -43,8 +43,12 @@ def motion_matrix(vehicle: Vehicle, motion: Motion) -> Float:
     -------
     ndarray, shape (..., n, n)
     """
+    return _part_matrix(vehicle, motion.coordinates)
+
+
+def _part_matrix(vehicle: Vehicle, coordinates: frozenset[str]) -> Float:
     system = vehicle.folded_state_space
-    place = {state: k for k, state in enumerate(system.states_of(motion.coordinates))}
+    place = {state: k for k, state in enumerate(system.states_of(coordinates))}
     return _dense({(place[i], place[j]): x for (i, j), x in system.A.items() if i in place and j in place}, len(place))
 
 
@@ -55,12 +59,17 @@ def _dense(entries: Mapping[tuple[int, int], Any], size: int) -> Float:
 
 def motion_eigenvalues(vehicle: Vehicle, motion: Motion) -> Complex:
     """Return the eigenvalues of one motion of a vehicle [1/s] along the last axis. Parameters as in `motion_matrix`."""
-    return np.asarray(np.linalg.eigvals(motion_matrix(vehicle, motion)), dtype=complex)
+    return _part_eigenvalues(vehicle, motion.coordinates)
+
+
+def _part_eigenvalues(vehicle: Vehicle, coordinates: frozenset[str]) -> Complex:
+    return np.asarray(np.linalg.eigvals(_part_matrix(vehicle, coordinates)), dtype=complex)
 
 
 def eigenvalues(vehicle: Vehicle) -> Complex:
     """Return all eigenvalues of a vehicle of floats [1/s], the least damped first, conjugates together."""
-    return in_order(np.concatenate([motion_eigenvalues(vehicle, motion) for motion in vehicle.motions]))
+    # The parts belong to the model: no polynomial of these numbers is needed to know them.
+    return in_order(np.concatenate([_part_eigenvalues(vehicle, part) for part in vehicle.model.parts]))
 
 
 def in_order(s: Complex) -> Complex:

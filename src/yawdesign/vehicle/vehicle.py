@@ -9,7 +9,7 @@ from yawdesign.problem import Problem
 from yawdesign.problem.conditions import Condition, conditions
 from yawdesign.problem.parameters import parameter_keys
 from yawdesign.vehicle.catalogue import CATALOGUE, Parameters
-from yawdesign.vehicle.elements import Element, Link, Single, folded, physical
+from yawdesign.vehicle.elements import Element, Link, Mass, Single, folded, physical
 from yawdesign.vehicle.motions import Motion, motions
 from yawdesign.vehicle.polynomials import Number, Polynomial, product, scale_variable
 from yawdesign.vehicle.state_space import StateSpace
@@ -45,6 +45,16 @@ class Model:
         return (*parameter_keys(self.kind), "v")
 
     @property
+    def coordinates(self) -> Mapping[str, str]:
+        """Its coordinates at each end, in the order of the states, and their SI units."""
+        return _coordinates(self)
+
+    @property
+    def parts(self) -> tuple[frozenset[str], ...]:
+        """The coordinates of each motion, in half sums and half differences, in the order of `Vehicle.motions`."""
+        return _parts(self)
+
+    @property
     def sources(self) -> Mapping[str, frozenset[str]]:
         """By the name of each motion, on which parameters it depends; C_s is not one of them."""
         return _sources(self)
@@ -76,6 +86,16 @@ class Sources(frozenset[str]):
 @lru_cache
 def _traced(model: Model) -> "Vehicle":
     return model.at({name: Sources({name}) for name in model.parameters})
+
+
+@lru_cache
+def _coordinates(model: Model) -> dict[str, str]:
+    return {mass.coordinate: mass.unit for mass in _traced(model).physical if isinstance(mass, Mass)}
+
+
+@lru_cache
+def _parts(model: Model) -> tuple[frozenset[str], ...]:
+    return tuple(motion.coordinates for motion in _traced(model).motions)
 
 
 @lru_cache
