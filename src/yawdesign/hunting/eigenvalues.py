@@ -26,7 +26,22 @@ def state_matrix(vehicle: Vehicle) -> Float:
     -------
     ndarray, shape (..., n, n)
     """
-    return _dense(vehicle.state_space.A, vehicle.state_space.size)
+    return dense(vehicle.state_space.A, vehicle.state_space.size)
+
+
+def folded_matrix(vehicle: Vehicle) -> Float:
+    """Return the state matrix of a vehicle in half sums and half differences of both ends, in which motions are apart.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        With numbers or arrays that broadcast against each other.
+
+    Returns
+    -------
+    ndarray, shape (..., n, n)
+    """
+    return dense(vehicle.folded_state_space.A, vehicle.folded_state_space.size)
 
 
 def motion_matrix(vehicle: Vehicle, motion: Motion) -> Float:
@@ -37,39 +52,44 @@ def motion_matrix(vehicle: Vehicle, motion: Motion) -> Float:
     vehicle : Vehicle
         With numbers or arrays that broadcast against each other.
     motion : Motion
-        One of its motions.
+        One of its motions, or of its model's; its polynomial is not looked at.
 
     Returns
     -------
     ndarray, shape (..., n, n)
     """
-    return _part_matrix(vehicle, motion.coordinates)
-
-
-def _part_matrix(vehicle: Vehicle, coordinates: frozenset[str]) -> Float:
     system = vehicle.folded_state_space
-    place = {state: k for k, state in enumerate(system.states_of(coordinates))}
-    return _dense({(place[i], place[j]): x for (i, j), x in system.A.items() if i in place and j in place}, len(place))
+    place = {state: k for k, state in enumerate(system.states_of(motion.coordinates))}
+    return dense({(place[i], place[j]): x for (i, j), x in system.A.items() if i in place and j in place}, len(place))
 
 
-def _dense(entries: Mapping[tuple[int, int], Any], size: int) -> Float:
-    shape = np.broadcast_shapes(*(np.shape(value) for value in entries.values()))
-    return np.asarray(fill(entries, np.zeros((*shape, size, size))))
+def dense(entries: Mapping[tuple[int, int], Any], rows: int, columns: int | None = None) -> Float:
+    """Return entries as a matrix, a square one if no number of columns is given; as a stack, if they are arrays.
+
+    Parameters
+    ----------
+    entries : mapping (row, column) -> number or array
+        What is not zero.
+    rows, columns : int
+        Size of the matrix.
+
+    Returns
+    -------
+    ndarray, shape (..., rows, columns)
+    """
+    shape = np.broadcast_shapes(*{getattr(value, "shape", ()) for value in entries.values()})
+    return np.asarray(fill(entries, np.zeros((*shape, rows, rows if columns is None else columns))))
 
 
 def motion_eigenvalues(vehicle: Vehicle, motion: Motion) -> Complex:
     """Return the eigenvalues of one motion of a vehicle [1/s] along the last axis. Parameters as in `motion_matrix`."""
-    return _part_eigenvalues(vehicle, motion.coordinates)
-
-
-def _part_eigenvalues(vehicle: Vehicle, coordinates: frozenset[str]) -> Complex:
-    return np.asarray(np.linalg.eigvals(_part_matrix(vehicle, coordinates)), dtype=complex)
+    return np.asarray(np.linalg.eigvals(motion_matrix(vehicle, motion)), dtype=complex)
 
 
 def eigenvalues(vehicle: Vehicle) -> Complex:
     """Return all eigenvalues of a vehicle of floats [1/s], the least damped first, conjugates together."""
-    # The parts belong to the model: no polynomial of these numbers is needed to know them.
-    return in_order(np.concatenate([_part_eigenvalues(vehicle, part) for part in vehicle.model.parts]))
+    # What belongs to a motion is the model's: the polynomials of these numbers are not needed.
+    return in_order(np.concatenate([motion_eigenvalues(vehicle, motion) for motion in vehicle.model.motions]))
 
 
 def in_order(s: Complex) -> Complex:

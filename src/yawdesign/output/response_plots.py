@@ -101,7 +101,7 @@ def frequency_response(result: "FrequencyResponse", ax: "Axes | None" = None) ->
     right = ax.twinx()
     of = {"alignment": "m of alignment", "cross_level": "rad of cross-level"}[result.input]
     for axes, name, colour, unit in ((ax, "y_b", LATERAL, "m"), (right, "phi_b", YAW, "rad")):
-        axes.plot(result.frequency, abs(getattr(result, name)), color=colour, lw=1.4)
+        axes.plot(result.frequency, abs(result.amplitudes[name]), color=colour, lw=1.4)
         axes.set_ylabel(f"{_first_capital(meaning(name))} [{unit} per {of}]", color=colour)
         axes.tick_params(axis="y", colors=colour)
         axes.set_ylim(bottom=0)

@@ -1,16 +1,17 @@
 """Determinants of sparse polynomial matrices, and the independent parts that their graphs fall into."""
 
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 from yawdesign.vehicle.polynomials import ONE, ZERO, Polynomial, add, multiply, product, scale
 
 Node = Hashable
+N = TypeVar("N", bound=Hashable)
 Matrix = Mapping[tuple[Any, Any], Polynomial]
 
 
-def _neighbours(edges: Iterable[tuple[Node, Node]]) -> dict[Node, list[Node]]:
-    rows: dict[Node, list[Node]] = {}
+def _neighbours(edges: Iterable[tuple[N, N]]) -> dict[N, list[N]]:
+    rows: dict[N, list[N]] = {}
     for i, j in edges:
         rows.setdefault(i, [])
         rows.setdefault(j, [])
@@ -19,7 +20,7 @@ def _neighbours(edges: Iterable[tuple[Node, Node]]) -> dict[Node, list[Node]]:
     return rows
 
 
-def _reachable(start: Node, rows: Mapping[Node, Sequence[Node]], nodes: frozenset[Node]) -> frozenset[Node]:
+def _reachable(start: N, rows: Mapping[N, Sequence[N]], nodes: frozenset[N]) -> frozenset[N]:
     found, queue = {start}, [start]
     while queue:
         new = [j for j in rows[queue.pop()] if j in nodes and j not in found]
@@ -28,7 +29,7 @@ def _reachable(start: Node, rows: Mapping[Node, Sequence[Node]], nodes: frozense
     return frozenset(found)
 
 
-def _pieces(nodes: Iterable[Node], *ways: Mapping[Node, Sequence[Node]]) -> list[frozenset[Node]]:
+def _pieces(nodes: Iterable[N], *ways: Mapping[N, Sequence[N]]) -> list[frozenset[N]]:
     """Return the parts of some nodes of a graph within which each node reaches each other on all of the ways."""
     pieces, rest = [], list(nodes)
     inside = frozenset(rest)
@@ -39,7 +40,7 @@ def _pieces(nodes: Iterable[Node], *ways: Mapping[Node, Sequence[Node]]) -> list
     return sorted(pieces, key=len)
 
 
-def reached_from(start: Node, edges: Iterable[tuple[Node, Node]]) -> frozenset[Node]:
+def reached_from(start: N, edges: Iterable[tuple[N, N]]) -> frozenset[N]:
     """Return a node of a graph and all that its edges lead to from there.
 
     Examples
@@ -51,7 +52,7 @@ def reached_from(start: Node, edges: Iterable[tuple[Node, Node]]) -> frozenset[N
     return _reachable(start, rows, frozenset(rows))
 
 
-def independent_parts(edges: Sequence[tuple[Node, Node]]) -> list[frozenset[Node]]:
+def independent_parts(edges: Sequence[tuple[N, N]]) -> list[frozenset[N]]:
     """Return the strongly connected parts of a graph: in each of them everything acts on everything else, and back.
 
     Parameters

@@ -45,14 +45,9 @@ class Model:
         return (*parameter_keys(self.kind), "v")
 
     @property
-    def coordinates(self) -> Mapping[str, str]:
-        """Its coordinates at each end, in the order of the states, and their SI units."""
-        return _coordinates(self)
-
-    @property
-    def parts(self) -> tuple[frozenset[str], ...]:
-        """The coordinates of each motion, in half sums and half differences, in the order of `Vehicle.motions`."""
-        return _parts(self)
+    def motions(self) -> tuple[Motion, ...]:
+        """The motions of its vehicles: their names and coordinates, and which parameters they are made of."""
+        return _traced(self).motions
 
     @property
     def sources(self) -> Mapping[str, frozenset[str]]:
@@ -63,6 +58,11 @@ class Model:
     def joints(self) -> Mapping[str, str]:
         """By the damping of each damper in series with joints, the stiffness of these; by parameters' names."""
         return _joints(self)
+
+    @property
+    def coordinates(self) -> Mapping[str, str]:
+        """SI units of the coordinates at each end, by name, in the order of the states."""
+        return _coordinates(self)
 
     def movable(self, variables: Iterable[str]) -> tuple[str, ...]:
         """Return the names of the motions that some design variable moves; what a yaw damper reaches is among them."""
@@ -89,18 +89,8 @@ def _traced(model: Model) -> "Vehicle":
 
 
 @lru_cache
-def _coordinates(model: Model) -> dict[str, str]:
-    return {mass.coordinate: mass.unit for mass in _traced(model).physical if isinstance(mass, Mass)}
-
-
-@lru_cache
-def _parts(model: Model) -> tuple[frozenset[str], ...]:
-    return tuple(motion.coordinates for motion in _traced(model).motions)
-
-
-@lru_cache
 def _sources(model: Model) -> dict[str, frozenset[str]]:
-    numbers = {motion.name: [a for p in motion.coefficients for a in p] for motion in _traced(model).motions}
+    numbers = {motion.name: [a for p in motion.coefficients for a in p] for motion in model.motions}
     return {name: frozenset().union(*(a for a in every if isinstance(a, Sources))) for name, every in numbers.items()}
 
 
@@ -108,6 +98,17 @@ def _sources(model: Model) -> dict[str, frozenset[str]]:
 def _joints(model: Model) -> dict[str, str]:
     laws: list[Any] = [law for link in _traced(model).physical if isinstance(link, Link) for law in link.maxwell]
     return {damping: stiffness for law in laws for damping in law.c for stiffness in law.K}
+
+
+@lru_cache
+def _coordinates(model: Model) -> dict[str, str]:
+    return {mass.coordinate: mass.unit for mass in _traced(model).physical if isinstance(mass, Mass)}
+
+
+@lru_cache
+def known_coordinates() -> tuple[str, ...]:
+    """Return the coordinates at each end of all vehicles in the catalogue."""
+    return tuple(dict.fromkeys(name for kind in CATALOGUE for name in Model(kind).coordinates))
 
 
 class Vehicle:
