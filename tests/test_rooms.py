@@ -57,6 +57,13 @@ def test_what_rooms_may_import_from_outside(path):
     assert not outside & FORBIDDEN.get(room_of(path), set())
 
 
+@pytest.mark.parametrize("path", sorted((ROOT / "response").glob("*/*.py")), ids=lambda path: "/".join(path.parts[-2:]))
+def test_the_response_goes_from_modes_over_the_track_to_the_run(path):
+    order = ("modes", "track", "run")
+    used = {name.split(".")[2] for name in imports(path) if name.startswith("yawdesign.response.")}
+    assert used <= set(order[: order.index(path.parent.name) + 1])
+
+
 def test_something_was_looked_at():
     assert {room_of(path) for path in MODULES} >= {"problem", "vehicle", "hunting"}
     assert "yawdesign.vehicle.polynomials.Number" in set(imports(ROOT / "vehicle" / "elements.py"))

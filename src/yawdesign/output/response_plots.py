@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from yawdesign.output.plots import literal, new_axes
 from yawdesign.problem import ProblemError, format_quantity
+from yawdesign.vehicle.signals import DIRECTIONS, ENDS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,8 +28,6 @@ SHOWN = {
     "N": (1e-3, "kN"),
 }
 BODIES = {"b": "frame", "w1": "front wheelset", "w2": "rear wheelset", "m1": "front motor", "m2": "rear motor"}
-DIRECTIONS = {"y": "lateral", "phi": "yaw"}
-ENDS = {"1": "front", "2": "rear"}
 
 
 def meaning(name: str) -> str:

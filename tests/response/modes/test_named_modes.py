@@ -9,6 +9,9 @@ import yawdesign as yd
 from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.response.modes.named_modes import modes_at
 from yawdesign.response.modes.names import owners
+from yawdesign.response.run.system import System
+from yawdesign.vehicle.catalogue import CATALOGUE, trailer_bogie
+from yawdesign.vehicle.elements import Link, Maxwell, Pair
 from yawdesign.vehicle.vehicle import Model
 
 
@@ -111,3 +114,22 @@ def test_modes_of_a_problem():
 def test_the_worst_of_a_range_of_speeds():
     problem = yd.table1().replace(speed=yd.SpeedRange(min="200 km/h", max="300 km/h"))
     assert yd.modes(problem).speed == pytest.approx(300 / 3.6)
+
+
+def with_primary_dampers(p, equations):
+    *others, wheelsets = trailer_bogie(p, equations)
+    damper = Link((Maxwell(1e7, 2e4),), {"y_b": 1, "y_w": -1}, lever={"phi_b": p["a"]}, name="primary damper")
+    return [*others, Pair((*wheelsets.elements, damper), own=wheelsets.own)]
+
+
+def test_a_damper_that_is_new_in_the_catalogue_has_its_modes_and_outputs(monkeypatch, table1):
+    monkeypatch.setitem(CATALOGUE, "with primary dampers", with_primary_dampers)
+    vehicle = Model("with primary dampers").at(table1, C_s=1e6)
+    modes = modes_at(vehicle)
+    assert sum(2 if mode.frequency else 1 for mode in modes) == 17
+    own = {mode.name for mode in modes if "primary" in mode.name}
+    assert own == {"primary damper relaxation 1", "primary damper relaxation 2"}
+    assert {"primary damper 1", "primary damper 2"} <= modes[0].participation.keys()
+    system = System(vehicle)
+    assert {"primary_damper_force_1", "primary_damper_stroke_2"} <= system.outputs.keys()
+    assert system.C.shape == (len(system.outputs), 17)
