@@ -80,6 +80,13 @@ def test_the_drawing_is_of_these_rooms():
     assert drawn == rooms.drawing(), "python docs/figures/rooms.py draws it anew"
 
 
+@pytest.mark.parametrize("path", sorted((ROOT / "response").glob("*/*.py")), ids=lambda path: "/".join(path.parts[-2:]))
+def test_the_response_goes_from_modes_over_the_track_to_the_run(path):
+    order = ("modes", "track", "run")
+    used = {name.split(".")[2] for name in imports(path) if name.startswith("yawdesign.response.")}
+    assert used <= set(order[: order.index(path.parent.name) + 1])
+
+
 def test_something_was_looked_at():
     assert "yawdesign.hunting.verdict" in modules_of(ROOT / "response" / "run" / "simulate.py")
     assert "yawdesign.output.sweep_plots" in modules_of(ROOT / "output" / "plots.py")

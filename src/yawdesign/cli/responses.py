@@ -53,7 +53,7 @@ def simulate(
         _check_response(problem, response, plot)
         with progress_shown() as progress:
             from yawdesign.response.run.simulate import simulate as run
-            from yawdesign.response.track.named_tracks import shaped
+            from yawdesign.response.track.tracks import shaped
 
             result = run(
                 problem,

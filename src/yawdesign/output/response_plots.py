@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from yawdesign.output.pictures import literal, new_axes
 from yawdesign.problem import ProblemError, format_quantity
+from yawdesign.vehicle.signals import DIRECTIONS, ENDS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,8 +29,6 @@ SHOWN = {
     "N": (1e-3, "kN"),
 }
 BODIES = {"b": "frame", "w1": "front wheelset", "w2": "rear wheelset", "m1": "front motor", "m2": "rear motor"}
-DIRECTIONS = {"y": "lateral", "phi": "yaw"}
-ENDS = {"1": "front", "2": "rear"}
 
 
 def meaning(name: str) -> str:
@@ -102,7 +101,7 @@ def frequency_response(result: "FrequencyResponse", ax: "Axes | None" = None) ->
     right = ax.twinx()
     of = {"alignment": "m of alignment", "cross_level": "rad of cross-level"}[result.input]
     for axes, name, colour, unit in ((ax, "y_b", LATERAL, "m"), (right, "phi_b", YAW, "rad")):
-        axes.plot(result.frequency, abs(getattr(result, name)), color=colour, lw=1.4)
+        axes.plot(result.frequency, abs(result.amplitudes[name]), color=colour, lw=1.4)
         axes.set_ylabel(f"{_first_capital(meaning(name))} [{unit} per {of}]", color=colour)
         axes.tick_params(axis="y", colors=colour)
         axes.set_ylim(bottom=0)

@@ -8,9 +8,10 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from yawdesign.output.response_plots import BODIES, SHOWN, meaning
+from yawdesign.output.response_plots import SHOWN, meaning
 from yawdesign.output.tables import damping, facts, speed, titled, verified
 from yawdesign.problem import format_quantity
+from yawdesign.vehicle.vehicle import known_coordinates
 
 if TYPE_CHECKING:
     from yawdesign.response.run.damper_component import DamperComponent
@@ -60,7 +61,7 @@ def _frame(result: "Simulation") -> Table:
 
 def _motions(result: "Simulation") -> Table:
     rates = ("", "_velocity", "_acceleration")
-    names = [name for name in result.rms if name.split("_")[-1] in BODIES]
+    names = [name for name in result.rms if name in known_coordinates()]
     columns = [what for rate in ("u", "u'", "u''") for what in (f"{rate} RMS", "peak")]
     title = f"Responses at {speed(result.speed)}: displacement u (mm, mrad), u' (mm/s, mrad/s), u'' (m/s², rad/s²)"
     table = titled(title, "", *columns)

@@ -113,9 +113,11 @@ class StateSpace:
                     self._add_maxwell(link, law)
 
     def _respond(self, link: Link, constant: Number, offset: int) -> None:
+        displacement = [(offset + self._place[other], g) for other, g in link.displacement.items()]
         for x, force in link.force.items():
-            for other, g in link.displacement.items():
-                self._push(x, offset + self._place[other], times(times(constant, force), g))
+            each = times(constant, force)
+            for column, g in displacement:
+                self._push(x, column, times(each, g))
 
     def _add_maxwell(self, link: Link, law: Maxwell) -> None:
         if _is_absent(law):
