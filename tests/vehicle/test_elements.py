@@ -7,9 +7,21 @@ import pytest
 
 from yawdesign.vehicle.assembly import polynomial_matrix
 from yawdesign.vehicle.determinant import Determinant
-from yawdesign.vehicle.elements import Dashpot, Link, Mass, Maxwell, Pair, Spring, WheelRailContact, parallel
-from yawdesign.vehicle.old import StateSpace, bogie, folded, physical
+from yawdesign.vehicle.elements import (
+    Dashpot,
+    Link,
+    Mass,
+    Maxwell,
+    Pair,
+    Spring,
+    WheelRailContact,
+    folded,
+    parallel,
+    physical,
+)
 from yawdesign.vehicle.polynomials import evaluate, scale_variable, trim
+from yawdesign.vehicle.state_space import StateSpace, fill
+from yawdesign.vehicle.vehicle import Model
 
 
 def determinant(elements):
@@ -19,7 +31,7 @@ def determinant(elements):
 
 def matrix(elements):
     system = StateSpace(elements)
-    return system.fill(np.zeros((system.size, system.size)))
+    return fill(system.A, np.zeros((system.size, system.size)))
 
 
 def by_size(values):
@@ -142,18 +154,17 @@ def test_folding_separates_sums_from_differences():
 
 
 @pytest.mark.parametrize("equations", ["as-printed", "reciprocal"])
-def test_the_paper_bogie_folded_is_the_physical_one(table1, equations, rational):
-    p = rational({**table1, "C_s": 1e6})
-    elements = bogie(p, equations=equations)
-    assert trim(determinant(folded(elements))) == trim(determinant(physical(elements)))
+def test_the_paper_bogie_folded_is_the_physical_one(table1, equations, rational_vehicle):
+    vehicle = rational_vehicle(Model(equations=equations).at(table1, C_s=1e6))
+    assert trim(determinant(vehicle.folded)) == trim(determinant(vehicle.physical))
 
 
 def test_the_printed_equations_lack_one_reaction(table1):
-    p = {**table1, "C_s": 1e6}
-    printed, whole = (physical(bogie(p, equations=e)) for e in ("as-printed", "reciprocal"))
-    coordinates = StateSpace(printed).coordinates
+    p = table1
+    printed, whole = (Model(equations=e).at(p, C_s=1e6) for e in ("as-printed", "reciprocal"))
+    coordinates = printed.state_space.coordinates
     row, columns = 10 + coordinates.index("phi_b"), [coordinates.index(x) for x in ("phi_m1", "phi_m2")]
-    difference = matrix(whole) - matrix(printed)
+    difference = matrix(whole.physical) - matrix(printed.physical)
     others = np.delete(difference, row, axis=0)
     assert not others.any()
     expected = np.zeros(25)
@@ -164,6 +175,6 @@ def test_the_printed_equations_lack_one_reaction(table1):
     assert difference[row] == pytest.approx(expected, rel=1e-9, abs=1e-9)
 
 
-def test_sizes(table1, model):
-    p = {**table1, "C_s": 1e6}
-    assert matrix(physical(bogie(p, **model))).shape == ((25, 25) if model["kind"] == "power" else (15, 15))
+def test_sizes(table1, vehicle_model):
+    vehicle = vehicle_model.at(table1, C_s=1e6)
+    assert matrix(vehicle.physical).shape == ((25, 25) if vehicle_model.kind == "power" else (15, 15))
