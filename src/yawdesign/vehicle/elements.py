@@ -283,9 +283,11 @@ class Pair:
         shared = {x: g for x, g in element.gap.items() if x not in own} if sign == "+" else element.lever
         if not shared and not own:
             return None
+        # What changes its sign with the outer end is alike at both inner ones.
+        lever = element.outer if sign == "+" else {}
         # Half the sum of two forces is what each end's own equation sees; a shared body feels both ends: twice that.
-        ends = {**element.ends, **{x: 2 * element.ends.get(x, 1) for x in shared}}
-        return replace(element, gap={**shared, **own}, lever=element.outer, outer={}, ends=ends)
+        ends = {**element.ends, **{x: 2 * element.ends.get(x, 1) for x in (*shared, *lever)}}
+        return replace(element, gap={**shared, **own}, lever=lever, outer={}, ends=ends)
 
     def _rename(self, element: Single, suffix: str) -> Single:
         def new(x: str) -> str:
