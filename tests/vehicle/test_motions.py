@@ -9,8 +9,9 @@ import pytest
 
 from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.vehicle.assembly import polynomial_matrix
-from yawdesign.vehicle.elements import Mass
-from yawdesign.vehicle.polynomials import evaluate, scale_variable
+from yawdesign.vehicle.elements import Mass, folded
+from yawdesign.vehicle.motions import COUPLED, motions
+from yawdesign.vehicle.polynomials import evaluate, product, scale_variable
 from yawdesign.vehicle.state_space import fill
 from yawdesign.vehicle.vehicle import Model
 
@@ -265,3 +266,44 @@ def test_matrix_7_is_complete():
     rows = [line.split() for line in PAPER_MATRIX.strip().splitlines()]
     assert [len(row) for row in rows] == [22] * 22
     assert {x for row in rows for x in row if x.isdigit()} == {str(k) for k in range(29)}
+
+
+def test_two_yaw_dampers_make_a_motion_of_the_second_degree(two_frames, exact_determinant):
+    coupled, apart = motions(two_frames(0))
+    assert (coupled.name, coupled.coordinates) == (COUPLED, {"front", "rear", "body"})
+    assert len(coupled.coefficients) == 3
+    assert (apart.name, apart.coordinates, len(apart.coefficients)) == ("apart", {"apart"}, 1)
+    # Two polynomials in s of degree 12 that agree at 13 points are the same, and so in C_s at three.
+    for C_s in (Fraction(0), Fraction(3, 7), Fraction(1000), Fraction(-1, 50)):
+        elements = two_frames(C_s)
+        assert motions(elements) == (coupled, apart)  # the damping itself is not looked at
+        whole = product([coupled.polynomial(C_s), apart.polynomial(C_s)])
+        assert len(whole) <= 13
+        for k in range(13):
+            s = Fraction(2 * k - 11, 5)
+            assert evaluate(whole, s) == exact_determinant(elements, s)
+
+
+def test_two_yaw_dampers_with_floats(two_frames, rational):
+    for exact, floats in zip(motions(two_frames(0)), motions(two_frames(0, float)), strict=True):
+        for p, q in zip(exact.coefficients, floats.coefficients, strict=True):
+            assert q == pytest.approx([float(x) for x in p], rel=1e-14)
+
+
+def test_two_bogies_under_one_car_body(two_bogies, exact_determinant):
+    (coupled,) = motions(folded(two_bogies(0)))
+    assert len(coupled.coefficients) == 3
+    for C_s in (0, 5, 10**6):
+        elements, p = folded(two_bogies(C_s)), coupled.polynomial(Fraction(C_s))
+        assert all(evaluate(p, Fraction(s)) == exact_determinant(elements, Fraction(s)) for s in range(1, len(p) + 1))
+
+
+def test_degrees_in_the_yaw_damping(table1, vehicle_model):
+    coupled, *others = vehicle_model.at(table1).motions
+    assert len(coupled.coefficients) == 2
+    assert all(len(motion.coefficients) == 1 for motion in others)
+
+
+def test_the_yaw_damping_of_the_vehicle_does_not_enter_its_motions(table1, vehicle_model, rational_vehicle):
+    vehicle = rational_vehicle(vehicle_model.at(table1))
+    assert vehicle.motions == vehicle.replace(C_s=flint.fmpq(1_000_000)).motions
