@@ -1,5 +1,6 @@
 """The characteristic polynomial against the paper's 22 x 22 matrix (7), exact arithmetic and eigenvalues."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import casadi as ca
@@ -9,7 +10,7 @@ import pytest
 
 from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.vehicle.assembly import polynomial_matrix
-from yawdesign.vehicle.elements import Mass, folded
+from yawdesign.vehicle.elements import Dashpot, Link, Mass, Maxwell, Spring, folded
 from yawdesign.vehicle.motions import COUPLED, motions
 from yawdesign.vehicle.polynomials import evaluate, product, scale_variable
 from yawdesign.vehicle.state_space import fill
@@ -307,3 +308,24 @@ def test_degrees_in_the_yaw_damping(table1, vehicle_model):
 def test_the_yaw_damping_of_the_vehicle_does_not_enter_its_motions(table1, vehicle_model, rational_vehicle):
     vehicle = rational_vehicle(vehicle_model.at(table1))
     assert vehicle.motions == vehicle.replace(C_s=flint.fmpq(1_000_000)).motions
+
+
+@pytest.mark.parametrize("names", [("yaw damper 1", "yaw damper 1"), ("lateral damper", "yaw damper 2")])
+def test_two_dampers_of_one_name_are_refused(two_frames, names):
+    renamed = dict(zip(("yaw damper 1", "yaw damper 2"), names, strict=True))
+    elements = [replace(e, name=renamed.get(e.name, e.name)) if isinstance(e, Link) else e for e in two_frames(1)]
+    with pytest.raises(ValueError, match=f"two parts are called {names[0]}"):
+        motions(elements)
+
+
+def test_a_yaw_damper_without_a_name_is_refused(two_frames):
+    elements = [replace(e, name="") if isinstance(e, Link) and e.varied else e for e in two_frames(1)]
+    with pytest.raises(ValueError, match="no name, at front, body"):
+        motions(elements)
+
+
+@pytest.mark.parametrize("laws", [(Dashpot(2),), (Maxwell(3, 2), Spring(4)), (Maxwell(3, 2), Maxwell(3, 2))])
+def test_a_yaw_damper_is_one_damper_in_series_with_a_spring(two_frames, laws):
+    elements = [replace(e, laws=laws) if isinstance(e, Link) and e.varied else e for e in two_frames(1)]
+    with pytest.raises(ValueError, match="yaw damper 1 must be one damper"):
+        motions(elements)
