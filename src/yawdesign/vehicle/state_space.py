@@ -72,7 +72,7 @@ class StateSpace:
     @property
     def states(self) -> SignalNames:
         """Names of the states."""
-        strokes = (of_damper(link.own_name, "stroke") for link, _ in self.strokes)
+        strokes = (of_damper(_name(link), "stroke") for link, _ in self.strokes)
         return SignalNames((*self.coordinates, *map(velocity, self.coordinates), *strokes))
 
     @property
@@ -148,7 +148,7 @@ class StateSpace:
         for contact in (e for e in self.elements if isinstance(e, WheelRailContact)):
             rows[f"lateral_force_{contact.y.removeprefix('y_w')}"] = (*self._lateral_force(contact), "N")
         for k, (link, law) in enumerate(self.strokes):
-            rows |= self._damper(2 * n + k, link.own_name, link, law)
+            rows |= self._damper(2 * n + k, _name(link), link, law)
         return rows
 
     def _acceleration(self, row: int) -> tuple[Row, Row]:
@@ -213,6 +213,12 @@ class StateSpace:
         rows = [self._rows[name] for name in outputs]
         C = {(i, j): x for i, (c, _, _) in enumerate(rows) for j, x in c.items()}
         return C, {(i, j): x for i, (_, d, _) in enumerate(rows) for j, x in d.items()}
+
+
+def _name(link: Link) -> str:
+    if not link.name:
+        raise ValueError(f"a damper in series with a spring has no name, at {', '.join(link.displacement)}")
+    return link.name
 
 
 def _acts_on(owner: Mass | Link) -> Sequence[str]:
