@@ -1,9 +1,10 @@
 """Pictures of the bogie in motion: frequency responses, time histories, spectra, and the yaw damper's stiffness."""
 
 from collections.abc import Sequence
+from math import degrees
 from typing import TYPE_CHECKING
 
-from yawdesign.output.plots import literal, new_axes
+from yawdesign.output.pictures import literal, new_axes
 from yawdesign.problem import ProblemError, format_quantity
 
 if TYPE_CHECKING:
@@ -151,7 +152,7 @@ def damper_component(result: "DamperComponent", ax: "Axes | None" = None) -> "Ax
     right = ax.twinx()
     f = [z.frequency for z in result.over_frequency]
     ax.plot(f, [z.stiffness / 1e6 for z in result.over_frequency], "o-", color=LATERAL, ms=3.5)
-    right.plot(f, [57.29577951308232 * z.phase for z in result.over_frequency], "s--", color=YAW, ms=3.5)
+    right.plot(f, [degrees(z.phase) for z in result.over_frequency], "s--", color=YAW, ms=3.5)
     ax.axhline(result.K_ds / 1e6, color="0.5", lw=0.8, ls=":")
     ax.annotate(
         "stiffness of the joints", (f[-1], result.K_ds / 1e6), ha="right", va="bottom", color="0.4", fontsize="small"

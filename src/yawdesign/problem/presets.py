@@ -6,10 +6,9 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from .build import build
 from .diagnostics import Mistakes
 from .document import compose, plain_data
-from .file_shape import problem_model
+from .file_shape import build, problem_model
 from .parameters import KINDS, parameter_keys
 from .problem import EQUATIONS, Problem
 from .table import as_choice

@@ -12,7 +12,7 @@ from yawdesign.problem import PARAMETERS, Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.parameters import MOTOR_KEYS, NO_MOTOR, parameter_keys
 from yawdesign.problem.running import SpeedRange
-from yawdesign.problem.table import as_choice
+from yawdesign.problem.table import as_choice, key_of
 from yawdesign.study.axes import CREEP, DERIVED, ROWS, Axis, applied, read_axis, shape
 from yawdesign.study.question import NEEDS_DAMPING, QUANTITIES, Question
 
@@ -81,7 +81,7 @@ class Request:
 def request(problem: Problem, of: str, axes: Iterable[tuple[str, Any]], hold: str | None) -> Request:
     """Return a checked request; arguments as in `yawdesign.sweep`, the axes as pairs of name and values."""
     mistakes = Mistakes()
-    pairs = [("lambda" if name == "lambda_" else name, values) for name, values in axes]
+    pairs = [(key_of(name), values) for name, values in axes]
     names = [name for name, _ in pairs]
     quantity = ""
     with mistakes.under("of"):

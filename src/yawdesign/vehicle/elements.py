@@ -172,6 +172,8 @@ class Mass:
         Mass [kg], or moment of inertia [kg m^2].
     unit : {"m", "rad"}
         Unit of the coordinate.
+    body : str, optional
+        What it is part of, such as ``wheelset``; what follows is said of its coordinate.
     name : str, optional
         What a mode is called in which it moves most; the coordinate's own name if not given.
     creeping : str, optional
@@ -183,6 +185,7 @@ class Mass:
     coordinate: str
     m: Number
     unit: str = "m"
+    body: str = ""
     name: str = ""
     creeping: str = ""
     alone: str = ""

@@ -8,6 +8,7 @@ from typing import Any, Self
 from yawdesign.problem import Problem
 from yawdesign.problem.conditions import Condition, conditions
 from yawdesign.problem.parameters import parameter_keys
+from yawdesign.problem.table import key_of
 from yawdesign.vehicle.catalogue import CATALOGUE, Parameters
 from yawdesign.vehicle.elements import Element, Link, Single, folded, physical
 from yawdesign.vehicle.motions import Motion, motions
@@ -125,7 +126,7 @@ class Vehicle:
 
     def replace(self, **changes: Number) -> "Vehicle":
         """Return the vehicle with other numbers."""
-        return Vehicle(self.model, {**self.p, **{"lambda" if k == "lambda_" else k: x for k, x in changes.items()}})
+        return Vehicle(self.model, {**self.p, **{key_of(name): x for name, x in changes.items()}})
 
     @property
     def C_s(self) -> Any:

@@ -1,15 +1,11 @@
 """Compiling the C code of an FMU for this machine."""
 
-import os
 import platform
-import shlex
-import shutil
 import sys
 from pathlib import Path
 
-from yawdesign.hunting.many.commands import run
+from yawdesign.hunting.many.c_compiler import compilers, run, why_none
 
-_COMPILERS = ("cc", "gcc", "clang")
 _MACHINES = {"amd64": "x86_64", "arm64": "aarch64", "i386": "x86", "i686": "x86"}
 _SYSTEMS = {"win32": ("windows", ".dll"), "darwin": ("darwin", ".dylib")}
 _OPTIONS = ("-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-fvisibility=hidden", "-shared")
@@ -31,22 +27,6 @@ def library_suffix() -> str:
     return _SYSTEMS.get(sys.platform, ("", ".so"))[1]
 
 
-def compiler() -> list[str]:
-    """Return the command of a C compiler: that of the environment's ``CC``, or the first one found.
-
-    Raises
-    ------
-    CannotCompileError
-        If there is none.
-    """
-    wanted = shlex.split(os.environ.get("CC", ""))
-    for command in (wanted,) if wanted else ([name] for name in _COMPILERS):
-        if found := shutil.which(command[0]):
-            return [found, *command[1:]]
-    named = f"CC={wanted[0]} names none" if wanted else f"none of {', '.join(_COMPILERS)} is on the path"
-    raise CannotCompileError(f"no C compiler was found ({named})")
-
-
 def compile_library(source: Path, library: Path) -> None:
     """Compile one C file, and what it includes, to a shared library.
 
@@ -60,7 +40,10 @@ def compile_library(source: Path, library: Path) -> None:
     CannotCompileError
         If there is no compiler, or it does not succeed.
     """
-    command = [*compiler(), *_OPTIONS, "-o", str(library), str(source)]
+    found = compilers("CC")
+    if not found:
+        raise CannotCompileError(why_none("CC"))
+    command = [*found[0], *_OPTIONS, "-o", str(library), str(source)]
     try:
         done = run(command, _TIME_LIMIT)
     except TimeoutError as error:

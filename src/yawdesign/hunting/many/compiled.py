@@ -5,19 +5,19 @@ import ctypes
 import hashlib
 import os
 import platform
-import shutil
 import sys
 import tempfile
 import warnings
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.many import library_cache
-from yawdesign.hunting.many.commands import run
+from yawdesign.hunting.many.c_compiler import compilers, run, why_none
 
 Run = Callable[[Sequence[Float], Float, int, int], None]
 
@@ -61,6 +61,15 @@ void run(const double *const *in, const long long *stride, double *out, long lon
 TRIAL = "import ctypes, sys; ctypes.CDLL(sys.argv[1]).run"
 
 
+class _Compiler(NamedTuple):
+    command: tuple[str, ...]
+    version: str
+
+    @property
+    def path(self) -> str:
+        return self.command[0]
+
+
 def load(body: str) -> Run | None:
     """Return compiled operations as a function of (inputs, outputs, first point, last point but one).
 
@@ -75,15 +84,15 @@ def load(body: str) -> Run | None:
         None where there is no compiler, or it does not accept the code or does not finish; a note says so.
     """
     compiler = _compiler()
-    if compiler is None or compiler[0] in _hanging:
+    if compiler is None or compiler.path in _hanging:
         return None
     try:
         return _callable(_library(FRAME % {"width": WIDTH, "body": body}, compiler))
     except TimeoutError as error:
-        _hanging.add(compiler[0])
+        _hanging.add(compiler.path)
         note(str(error))
     except (OSError, RuntimeError, ValueError, AttributeError) as error:
-        note(f"{compiler[0]}: {_told(error)}")
+        note(f"{compiler.path}: {_told(error)}")
     return None
 
 
@@ -118,14 +127,16 @@ def _callable(library: ctypes.CDLL) -> Run:
     return run
 
 
-def _library(source: str, compiler: tuple[str, str]) -> ctypes.CDLL:
+def _library(source: str, compiler: _Compiler) -> ctypes.CDLL:
     """Return the shared library of a source, compiled if this machine has not compiled it yet."""
-    key = hashlib.sha256("\n".join([source, *FLAGS, *compiler, _processor()]).encode()).hexdigest()[:20]
+    key = hashlib.sha256(
+        "\n".join([source, *FLAGS, *compiler.command, compiler.version, _processor()]).encode()
+    ).hexdigest()[:20]
     with contextlib.suppress(OSError):
         if kept := library_cache.find(key):
             return _loaded(kept)
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
-        library = _compile(source, compiler[0], Path(folder))
+        library = _compile(source, compiler, Path(folder))
         _try(library)
         try:
             library = library_cache.keep(key, library.read_bytes())
@@ -145,17 +156,15 @@ def _loaded(kept: Path) -> ctypes.CDLL:
 
 def _try(library: Path) -> None:
     """Load a library in a process of its own: one that a compiler has cut off would end this one."""
-    done = run(
-        [sys.executable, "-I", "-c", "import ctypes, sys; ctypes.CDLL(sys.argv[1]).run", str(library)], TIME_LIMIT
-    )
+    done = run([sys.executable, "-I", "-c", TRIAL, str(library)], TIME_LIMIT)
     if done.returncode:
         raise RuntimeError("it made a library that does not load")
 
 
-def _compile(source: str, compiler: str, folder: Path) -> Path:
+def _compile(source: str, compiler: _Compiler, folder: Path) -> Path:
     code, library = folder / "code.c", folder / f"code{library_cache.SUFFIX}"
     code.write_text(source, encoding="ascii")
-    command = [compiler, *FLAGS, "-o", str(library), str(code)]
+    command = [*compiler.command, *FLAGS, "-o", str(library), str(code)]
     for options in (["-march=native"], []):
         done = run([*command, *options], TIME_LIMIT)
         if done.returncode == 0 and library.exists():
@@ -164,26 +173,25 @@ def _compile(source: str, compiler: str, folder: Path) -> Path:
 
 
 @cache
-def _compiler() -> tuple[str, str] | None:
-    """Return path and version of a C compiler that knows vector types."""
+def _compiler() -> _Compiler | None:
+    """Return a C compiler that answers; the one that is named, if one is."""
     wanted = os.environ.get(SWITCH)
-    if wanted and not shutil.which(wanted):
-        note(f"{SWITCH}={wanted} names no program")
-    names = ["gcc", "clang", "cc"] if wanted is None else [wanted]
-    return next(filter(None, map(_answer, names)), None)
-
-
-def _answer(name: str) -> tuple[str, str] | None:
-    """Return path and version of a compiler, if it is there and tells its version."""
-    path = shutil.which(name) if name else None
-    if path is None:
+    if wanted == "":
         return None
+    found = compilers(SWITCH)
+    if wanted and not found:
+        note(why_none(SWITCH))
+    return next(filter(None, map(_answering, found)), None)
+
+
+def _answering(command: Sequence[str]) -> _Compiler | None:
+    """Return a compiler with its version, if it tells that."""
     try:
-        done = run([path, "--version"], ANSWER_LIMIT)
+        done = run([*command, "--version"], ANSWER_LIMIT)
     except OSError as error:
         note(_told(error))
         return None
-    return (path, done.stdout) if done.returncode == 0 else None
+    return _Compiler(tuple(command), done.stdout) if done.returncode == 0 else None
 
 
 @cache

@@ -6,9 +6,9 @@ whose scalars are vectors of points. Both do the same operations in the same ord
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from functools import partial
 from threading import Lock, local
-from typing import Any
+from typing import Any, NamedTuple
 
 import casadi as ca
 import numpy as np
@@ -16,7 +16,6 @@ import numpy as np
 from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.many import compiled
 from yawdesign.hunting.many.compiled import Run
-from yawdesign.hunting.many.program import Program, Step
 
 BLOCK = 8192  # points; long enough that NumPy's calls cost little, and a row still fits the innermost caches
 MANY = 100_000  # points after which a compilation, about half a second, has paid
@@ -37,13 +36,17 @@ UNARY: dict[int, tuple[Callable[..., Any], str]] = {
 DOUBLED = {ca.OP_SQ: ca.OP_MUL, ca.OP_TWICE: ca.OP_ADD}
 
 
-@dataclass(frozen=True)
-class Operation:
+class Operation(NamedTuple):
     """One operation of the graph: CasADi's code for it, the register of the result, those of its operands."""
 
     code: int
     target: int
     sources: tuple[int, ...]
+
+    @property
+    def kinds(self) -> tuple[Callable[..., Any], str]:
+        """What it is in NumPy and in C."""
+        return (BINARY if len(self.sources) == 2 else UNARY)[self.code]
 
 
 class Tape:
@@ -74,25 +77,28 @@ class Tape:
         self._record(function)
 
     def _record(self, function: ca.Function) -> None:
-        """Read the instructions, giving every value a register of its own."""
+        """Read the instructions, giving every value a register of its own; what is there twice is computed once."""
         offsets = np.cumsum([0, *(function.nnz_out(k) for k in range(function.n_out()))])
+        known: dict[tuple[Any, ...], int] = {}
         place: dict[int, int] = {}
-        count = len(self.inputs)
         for k in range(function.n_instructions()):
             operation, into = function.instruction_id(k), function.instruction_output(k)
+            sources = function.instruction_input(k)
             if operation == ca.OP_OUTPUT:
-                self.results[offsets[into[0]] + into[1]] = place[function.instruction_input(k)[0]]
+                self.results[offsets[into[0]] + into[1]] = place[sources[0]]
             elif operation == ca.OP_INPUT:
-                place[into[0]] = function.instruction_input(k)[0]
+                place[into[0]] = sources[0]
             else:
-                if operation == ca.OP_CONST:
-                    self.constants[count] = function.instruction_constant(k)
-                else:
-                    sources = tuple(place[i] for i in function.instruction_input(k))
-                    self._add(operation, count, sources)
-                place[into[0]] = count
-                count += 1
-        self.registers = count
+                operands = tuple(place[i] for i in sources)
+                constant = function.instruction_constant(k) if operation == ca.OP_CONST else None
+                key = operation, repr(constant), operands  # -0.0 is another constant than 0.0
+                if key not in known:
+                    known[key] = count = len(self.inputs) + len(known)
+                    if constant is not None:
+                        self.constants[count] = constant
+                    else:
+                        self._add(operation, count, operands)
+                place[into[0]] = known[key]
 
     def _add(self, operation: int, target: int, sources: tuple[int, ...]) -> None:
         if operation in DOUBLED:
@@ -146,8 +152,8 @@ class Tape:
         lines = [f"  const vector r{k} = load(in[{k}], stride[{k}], point, end);" for k in range(len(self.inputs))]
         lines += [f"  const vector r{k} = ZERO + {_literal(x)};" for k, x in self.constants.items()]
         for step in self.steps:
-            text = (BINARY if len(step.sources) == 2 else UNARY)[step.code][1]
-            lines.append(f"  const vector r{step.target} = {text.format(*(f'r{i}' for i in step.sources))};")
+            text = step.kinds[1].format(*(f"r{i}" for i in step.sources))
+            lines.append(f"  const vector r{step.target} = {text};")
         lines += [f"  store(out + {k} * points, r{register}, point, end);" for k, register in enumerate(self.results)]
         return "\n".join(lines)
 
@@ -155,16 +161,78 @@ class Tape:
         """Run the operations with NumPy."""
         length = min(BLOCK, 1 << (end - start - 1).bit_length())
         key = length, tuple(x.size == 1 for x in arguments)
-        programs: dict[Any, Program] = vars(self._own).setdefault("programs", {})
+        programs: dict[Any, _Bound] = vars(self._own).setdefault("programs", {})
         if key not in programs:
-            steps = [_bound(step) for step in self.steps]
-            programs[key] = Program(steps, self.constants, key[1], self.results, length)
+            programs[key] = _Bound(self, *key)
         programs[key](arguments, out, start, end)
 
 
-def _bound(step: Operation) -> Step:
-    function = (BINARY if len(step.sources) == 2 else UNARY)[step.code][0]
-    return Step(function, step.target, step.sources, step.code == ca.OP_LT, step.code == ca.OP_MUL)
+class _Bound:
+    """The operations of a tape bound to the rows of a buffer, so that a block of points costs one NumPy call for each.
+
+    Not to be shared by threads.
+
+    Parameters
+    ----------
+    tape : Tape
+        What is to be done.
+    length : int
+        Most points of a block.
+    uniform : collection of bool
+        For every input, whether it is the same for all points; the inputs are the first registers.
+    """
+
+    def __init__(self, tape: Tape, length: int, uniform: Sequence[bool]) -> None:
+        self.length = length
+        self._place: dict[int, Any] = {k: np.ones(() if same else length) for k, same in enumerate(uniform)}
+        self._inputs = dict(self._place)
+        self._place |= {k: np.array(x) for k, x in tape.constants.items()}
+        self._calls: list[tuple[Callable[..., Any], tuple[Any, ...]]] = []
+        self._bind(tape.steps, {*tape.results, *self._place})
+        self._results = [self._place[k] for k in tape.results]
+
+    def _bind(self, steps: Sequence[Operation], kept: set[int]) -> None:
+        """Give every step its rows. A row is used again after the last step that reads it."""
+        last_use = {i: k for k, step in enumerate(steps) for i in step.sources}
+        free: dict[tuple[Any, str], list[Any]] = {}
+        for k, step in enumerate(steps):
+            operands = [self._place[i] for i in step.sources]
+            shape = np.broadcast_shapes(*(x.shape for x in operands))
+            logical = _is_logical(step.code, operands)
+            kind = shape, "?" if logical else "d"
+            spare = free.setdefault(kind, [])
+            row = self._place[step.target] = spare.pop() if spare else np.ones(shape, dtype=kind[1])
+            function = step.kinds[0]
+            self._calls.append((function if logical else _as_numbers(function, operands), (*operands, row)))
+            for i in {i for i in step.sources if last_use[i] == k and i not in kept}:
+                x = self._place[i]
+                free.setdefault((x.shape, x.dtype.char), []).append(x)
+
+    def __call__(self, arguments: Sequence[Float], out: Float, start: int, end: int) -> None:
+        """Run all steps on the points from start to end but one."""
+        with np.errstate(all="ignore"):
+            for first in range(start, end, self.length):
+                last = min(first + self.length, end)
+                for k, row in self._inputs.items():
+                    x = arguments[k]
+                    if row.ndim:
+                        row[: last - first] = x[first:last]
+                    else:
+                        row[()] = x.reshape(-1)[0]
+                for function, operands in self._calls:
+                    function(*operands)
+                for k, row in enumerate(self._results):
+                    out[k, first:last] = row[: last - first] if row.ndim else row
+
+
+def _is_logical(code: int, operands: Sequence[Any]) -> bool:
+    """Return whether the result is true or false: a comparison, or a product of such."""
+    return code == ca.OP_LT or (code == ca.OP_MUL and all(x.dtype == bool for x in operands))
+
+
+def _as_numbers(function: Callable[..., Any], operands: Sequence[Any]) -> Callable[..., Any]:
+    """Return the function such that it takes comparisons for numbers: NumPy's sum of two of them is one of them."""
+    return partial(function, dtype=float) if any(x.dtype == bool for x in operands) else function
 
 
 def _literal(value: float) -> str:

@@ -17,7 +17,7 @@ from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
-from yawdesign.problem.table import Parameter, as_several
+from yawdesign.problem.table import Parameter, as_several, key_of
 from yawdesign.response.modes.eigenvectors import Motion, motion, parts
 from yawdesign.response.modes.links import LOST
 from yawdesign.response.modes.named_modes import parameters_at
@@ -179,7 +179,7 @@ def _axis(problem: Problem, axis: Mapping[str, Any]) -> tuple[str, Parameter, Fl
         listed = ", ".join(axis) or "none given"
         raise ProblemError(f"modes are followed along one parameter, not {len(axis)}: {listed}")
     (key, given), allowed = next(iter(axis.items())), (*SPEED_NAMES, *parameter_keys(problem.bogie.kind))
-    key = {"lambda_": "lambda", "speed": "v"}.get(key, key)
+    key = "v" if key == "speed" else key_of(key)
     mistakes = Mistakes()
     with mistakes.under(key):
         if key not in allowed:

@@ -1,12 +1,12 @@
 """Runs of a problem's bogie over a track, at one speed or several."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem, ProblemError
-from yawdesign.problem.arguments import checked
+from yawdesign.problem.arguments import Progress, checked
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
@@ -21,7 +21,6 @@ from yawdesign.response.track.tracks import Band
 USUAL_OFFSET = 0.01  # [m]
 MOST_TOGETHER = 10_000_000  # steps of all runs, which are kept in memory: about 5 GB
 STARTS = ("stationary", "rest", "offset")
-Progress = Callable[[str, float], Any]
 
 
 @dataclass(frozen=True, repr=False, eq=False)

@@ -1,4 +1,4 @@
-"""Commands of others end in a bounded time, with all that they started."""
+"""Compilers are found the way a user names them; commands end in a bounded time, with all that they started."""
 
 import signal
 import subprocess
@@ -8,7 +8,36 @@ from pathlib import Path
 
 import pytest
 
-from yawdesign.hunting.many.commands import run
+from yawdesign.hunting.many.c_compiler import compilers, run, why_none
+
+
+def program(folder, name):
+    path = folder / name
+    path.write_text("#!/bin/sh\n")
+    path.chmod(0o755)
+    return str(path)
+
+
+def test_the_compilers_on_the_path_in_order(monkeypatch, tmp_path):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.delenv("CC", raising=False)
+    assert compilers("CC") == []
+    assert why_none("CC") == "no C compiler was found (none of cc, gcc, clang is on the path)"
+    clang, cc = (program(tmp_path, name) for name in ("clang", "cc"))
+    assert compilers("CC") == [[cc], [clang]]
+
+
+def test_the_compiler_that_is_named_is_the_only_one(monkeypatch, tmp_path):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    program(tmp_path, "cc")
+    own = program(tmp_path, "my cc")
+    monkeypatch.setenv("CC", own)
+    assert compilers("CC") == [[own]]
+    monkeypatch.setenv("CC", f"'{own}' -m64 -w")
+    assert compilers("CC") == [[own, "-m64", "-w"]]
+    monkeypatch.setenv("CC", "other -m64")
+    assert compilers("CC") == []
+    assert why_none("CC") == "no C compiler was found (CC=other names none)"
 
 
 def test_what_a_command_writes():
@@ -35,7 +64,7 @@ def test_a_command_that_is_not_there():
 def test_ctrl_c_stops_the_command_with_its_children(tmp_path):
     child = tmp_path / "child"
     shell = f"sleep 600 & echo $! > {child}; wait"
-    text = f"from yawdesign.hunting.many.commands import run; run(['/bin/sh', '-c', {shell!r}], 60)"
+    text = f"from yawdesign.hunting.many.c_compiler import run; run(['/bin/sh', '-c', {shell!r}], 60)"
     with subprocess.Popen([sys.executable, "-c", text], stderr=subprocess.PIPE) as process:
         while not (child.exists() and child.read_text().strip()):
             time.sleep(0.01)

@@ -1,10 +1,42 @@
-"""Commands of others, such as compilers, for a bounded time: what does not end is stopped with all that it started."""
+"""C compilers: which there are, and running them for a bounded time.
+
+What does not end is stopped with all that it started.
+"""
 
 import contextlib
 import os
+import shlex
+import shutil
 import signal
 import subprocess
 from collections.abc import Sequence
+
+NAMES = ("cc", "gcc", "clang")
+
+
+def compilers(variable: str) -> list[list[str]]:
+    """Return the C compilers that are here, each as the beginning of its command: path and options.
+
+    Parameters
+    ----------
+    variable : str
+        An environment variable. A compiler that it names, maybe with options, is the only one that counts.
+    """
+    wanted = _wanted(variable)
+    found = [(shutil.which(name), options) for name, *options in ([wanted] if wanted else [[name] for name in NAMES])]
+    return [[path, *options] for path, options in found if path]
+
+
+def why_none(variable: str) -> str:
+    """Return why no compiler was found; `variable` as in `compilers`."""
+    wanted = _wanted(variable)
+    reason = f"{variable}={wanted[0]} names none" if wanted else f"none of {', '.join(NAMES)} is on the path"
+    return f"no C compiler was found ({reason})"
+
+
+def _wanted(variable: str) -> list[str]:
+    text = os.environ.get(variable, "").strip()
+    return [text] if shutil.which(text) else shlex.split(text)  # a path may have blanks in it
 
 
 def run(command: Sequence[str], seconds: float) -> subprocess.CompletedProcess[str]:
