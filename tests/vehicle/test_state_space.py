@@ -244,6 +244,9 @@ def test_a_damper_without_a_stroke_has_no_outputs(K, c):
     assert system.states == ("x", "x_velocity")
     assert not any("damper" in name for name in system.outputs)
     assert system.A.get((1, 1), 0) == (-2.0 if c else 0)
+    if not c:  # whoever asks for the force of a damper that is not there gets it
+        assert system.rows_of(["damper_force"]) == ({}, {})
+        assert system.unit_of("damper_force") == "N"
 
 
 def test_fill_writes_stacks():
