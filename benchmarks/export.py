@@ -18,7 +18,10 @@ import numpy as np
 from scipy.optimize import brentq
 
 import yawdesign as yd
-from yawdesign.hunting.old import core_matrix, critical_damping
+from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.hunting.eigenvalues import motion_matrix
+from yawdesign.vehicle.motions import Motion
+from yawdesign.vehicle.vehicle import Vehicle
 
 DRIVER = r"""
 #include <stdio.h>
@@ -70,30 +73,30 @@ def timed(call: Callable[[], object], seconds: float) -> float:
     return (time.perf_counter() - begin) / count
 
 
-def by_brentq(p: dict[str, float], model: dict[str, str], near: float) -> float:
+def by_brentq(vehicle: Vehicle, motion: Motion, near: float) -> float:
     def largest(C_s: float) -> float:
-        return float(np.linalg.eigvals(core_matrix(p, C_s, **model)).real.max())
+        return float(np.linalg.eigvals(motion_matrix(vehicle.replace(C_s=C_s), motion)).real.max())
 
     return float(brentq(largest, near / 2, 2 * near, xtol=1e-9 * near, rtol=1e-12))
 
 
-def gradient_by_brentq(p: dict[str, float], model: dict[str, str], near: float) -> list[float]:
-    steps = {name: 1e-5 * value for name, value in p.items()}
-    moved = [[by_brentq({**p, n: p[n] + sign * h}, model, near) for sign in (1, -1)] for n, h in steps.items()]
+def gradient_by_brentq(vehicle: Vehicle, motion: Motion, near: float) -> list[float]:
+    steps = {name: 1e-5 * value for name, value in vehicle.p.items() if name != "C_s"}
+    ends = [[vehicle.replace(**{n: vehicle.p[n] + sign * h}) for sign in (1, -1)] for n, h in steps.items()]
+    moved = [[by_brentq(end, motion, near) for end in pair] for pair in ends]
     return [(up - down) / (2 * h) for (up, down), h in zip(moved, steps.values(), strict=True)]
 
 
 def row(name: str, task: yd.Problem, seconds: float) -> str:
-    p = {**{k: float(x) for k, x in task.bogie.parameters().items() if k != "C_s"}, "v": task.speeds[0]}
-    model = {"kind": task.bogie.kind, "equations": task.equations}
+    (vehicle,) = Vehicle.of(task)
     f = yd.functions(task).documented["critical_damping"]
     values = [port.value[0] for port in f.inputs]
     answer = float(f.function(*values)[0])
     routes: dict[str, Callable[[], object]] = {
         "casadi": lambda: f.function(*values),
-        "all": lambda: critical_damping(p, **model),
-        "brentq": lambda: by_brentq(p, model, answer),
-        "differences": lambda: gradient_by_brentq(p, model, answer),
+        "all": lambda: critical_damping(Vehicle(vehicle.model, vehicle.p)),
+        "brentq": lambda: by_brentq(vehicle, vehicle.coupled, answer),
+        "differences": lambda: gradient_by_brentq(vehicle, vehicle.coupled, answer),
     }
     best = dict.fromkeys(["c", *routes], np.inf)
     with tempfile.TemporaryDirectory() as folder:
@@ -106,7 +109,7 @@ def row(name: str, task: yd.Problem, seconds: float) -> str:
             best["c"] = min(best["c"], float(once))
             for route, call in routes.items():
                 best[route] = min(best[route], timed(call, seconds))
-    assert abs(by_brentq(p, model, answer) / answer - 1) < 1e-6
+    assert abs(by_brentq(vehicle, vehicle.coupled, answer) / answer - 1) < 1e-6
     c = best["c"]
     cells = [f"{best[r] * 1e6:,.0f} us ({best[r] / c:,.0f})".replace(",", " ") for r in routes]
     return f"| {name} | {c * 1e6:.1f} us | " + " | ".join(cells) + " |"

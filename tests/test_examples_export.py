@@ -11,11 +11,13 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
+from yawdesign.hunting.critical_damping import critical_damping
 from yawdesign.hunting.eigenvalues import eigenvalues
-from yawdesign.hunting.old import critical_damping, state_matrix
+from yawdesign.vehicle.vehicle import Model, Vehicle
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
+PRINTED = Model("power", "as-printed")
 SANITIZED = ["-std=c99", "-O1", "-Wall", "-Werror", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"]
 
 
@@ -61,8 +63,8 @@ def test_c_program_finds_the_critical_damping_of_table_1(program):
 
 @pytest.mark.slow
 def test_c_program_with_another_bogie(program):
-    p = {**yd.table1().bogie.parameters(), "v": 350 / 3.6, "lambda": 0.12}
-    (expected,) = critical_damping(p, equations="as-printed").critical
+    vehicle = PRINTED.at(yd.table1().bogie.parameters(), v=350 / 3.6).replace(lambda_=0.12)
+    (expected,) = critical_damping(vehicle).critical
     start = f"C_s_start={1.05 * expected.C_s}", f"omega_start={0.97 * expected.omega}"
     out = run(program, f"v={350 / 3.6}", "lambda=0.12", *start).stdout
     assert float(out.split()[1]) == pytest.approx(expected.C_s, rel=1e-9)
@@ -80,14 +82,13 @@ def test_c_program_says_what_is_wrong(program):
 def test_critical_damping_inside_an_nlp(exported):
     lines = run(sys.executable, EXAMPLES / "casadi" / "frame_and_damper.py", exported).stdout.splitlines()
     best = {line.split()[0]: float(line.split()[1]) for line in lines}
-    p = {**yd.table1().bogie.parameters(), "v": 300 / 3.6}
+    vehicle = PRINTED.at(yd.table1().bogie.parameters(), v=300 / 3.6)
 
     def answer(J_b, C_m):
-        found = critical_damping({**p, "J_b": J_b, "C_m": C_m}, equations="as-printed")
-        return max(x.C_s for x in found.critical)
+        return max(x.C_s for x in critical_damping(vehicle.replace(J_b=J_b, C_m=C_m)).critical)
 
     def cost(J_b, C_m):
-        return p["J_b"] / J_b + 0.2 * C_m / p["C_m"]
+        return vehicle.p["J_b"] / J_b + 0.2 * C_m / vehicle.p["C_m"]
 
     J_b, C_m = best["J_b"], best["C_m"]
     assert answer(J_b, C_m) == pytest.approx(best["C_sl"], rel=1e-8)
@@ -107,7 +108,7 @@ def test_python_control(tmp_path):
     assert float(out.split()[3]) == pytest.approx(-1.2985370178, rel=1e-7)
     task = yd.load(ROOT / "problems" / "table1.yaml")
     model, f = yd.state_space(task), float(out.split()[-2])
-    s = eigenvalues(state_matrix({**task.bogie.parameters(), "v": 300 / 3.6}, 1e6, equations="as-printed"))
+    s = eigenvalues(Vehicle.of(task)[0].replace(C_s=1e6))
     assert min(abs(s.imag / (2 * np.pi) - f)) < 0.1  # the peak stands at a mode
     x = np.linalg.solve(2j * np.pi * f * np.eye(25) - model.A, model.B[:, 0])
     assert abs((model.C @ x)[0]) == pytest.approx(float(out.split()[7]), rel=1e-3)

@@ -12,8 +12,8 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 import yawdesign as yd
-from yawdesign.hunting.old import state_matrix
-from yawdesign.vehicle.old import StateSpace, bogie, physical
+from yawdesign.hunting.eigenvalues import state_matrix
+from yawdesign.vehicle.vehicle import Model
 
 TOLERANCE = 1e-6  # of the largest value; CVode is asked for 1e-9 in every step
 INPUTS = ("alignment_1", "cross_level_1", "alignment_2", "cross_level_2")
@@ -100,9 +100,8 @@ def opened(request, tmp_path):
 def matrices(problem, **changes):
     """Return A and B with NumPy; B as the track enters the contact's equations, written out."""
     p = {**problem.bogie.parameters(), "v": max(problem.speeds), **changes}
-    model = {"kind": problem.bogie.kind, "equations": problem.equations}
-    A = state_matrix(p, p["C_s"], **model)
-    names = StateSpace(physical(bogie(p, **model))).coordinates
+    vehicle = Model.of(problem).at(p)
+    A, names = state_matrix(vehicle), vehicle.state_space.coordinates
     B = np.zeros((len(A), 4))
     for end in (0, 1):
         y, phi = (len(names) + names.index(f"{x}_w{end + 1}") for x in ("y", "phi"))
@@ -290,6 +289,7 @@ def test_a_damper_without_damping_is_left_out(tmp_path):
     times, found = simulated(str(path), [*names, "yaw_damper_pair_force"], stop_time=0.5, start_values={"y_w1": 1e-3})
     assert_close(found[:, :-1], exact(A, np.eye(22)[names.index("y_w1")] * 1e-3, times)[:, : len(names)])
     assert not found[:, -1].any()
+    assert variables["yaw_damper_displacement"] == "displacement of each yaw damper with its joints"
 
 
 def test_a_state_can_be_kept_and_taken_up_again(table1_fmu, opened):

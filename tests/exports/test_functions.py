@@ -12,28 +12,40 @@ import pytest
 import yawdesign as yd
 from yawdesign.damper.curving import curving_limit, resisting_moment, rotational_resistance
 from yawdesign.exports.functions import c_source, functions, self_test
-from yawdesign.exports.ports import Draft, Setting
-from yawdesign.hunting.eigenvalues import damping_ratio, decay_rate, eigenvalues
+from yawdesign.exports.parametric_model import ParametricModel
+from yawdesign.exports.symbolic_function import SymbolicFunction
+from yawdesign.hunting import boundary
+from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.hunting.eigenvalues import damping_ratio, decay_rate, motion_eigenvalues, state_matrix
 from yawdesign.hunting.hurwitz import hurwitz_minors
-from yawdesign.hunting.old import boundary as graphs
-from yawdesign.hunting.old import core_eigenvalues, critical_damping, state_matrix
 from yawdesign.hunting.routh import routh_column, sector_column
-from yawdesign.vehicle.old import StateSpace, bogie, characteristic, paper_coefficients, physical
 from yawdesign.vehicle.polynomials import scale_variable, shift
+from yawdesign.vehicle.vehicle import Model, Vehicle
 
 NAMES = (
     "state_matrix", "characteristic_polynomial", "routh_column", "hurwitz_minors", "critical_damping",
     "critical_equations", "rotational_resistance", "stability_margin", "margin_equations", "dynamic_stiffness",
 )  # fmt: skip
 MOTOR_KEYS = {key for key, row in yd.PARAMETERS.items() if row.motor}
-TRAILER = {"kind": "trailer", "equations": "reciprocal"}
+TRAILER = Model("trailer")
+MODELS = (Model("power", "as-printed"), Model("power"), TRAILER)
 
 
-def problem_of(p, model):
-    given = {("lambda_" if k == "lambda" else k): x for k, x in p.items() if k != "v"}
-    left_out = MOTOR_KEYS if model["kind"] == "trailer" else ()
-    vehicle = yd.Bogie(kind=model["kind"], **{k: x for k, x in given.items() if k not in left_out})
-    return yd.Problem(bogie=vehicle, speed=p["v"], equations=model["equations"], curve=yd.table1().curve)
+@pytest.fixture(params=MODELS, ids=lambda model: f"{model.kind} {model.equations}")
+def which(request):
+    return request.param
+
+
+def problem_of(vehicle):
+    given = {("lambda_" if k == "lambda" else k): x for k, x in vehicle.p.items() if k in vehicle.model.parameters}
+    v, model = given.pop("v"), vehicle.model
+    bogie = yd.Bogie(kind=model.kind, **given)
+    return yd.Problem(bogie=bogie, speed=v, equations=model.equations, curve=yd.table1().curve)
+
+
+def coupled_polynomial(vehicle):
+    """Return the coupled motion's polynomial in s / (100 rad/s)."""
+    return scale_variable(vehicle.coupled.polynomial(vehicle.C_s), 100.0)
 
 
 def evaluated(f, **values):
@@ -45,16 +57,16 @@ def evaluated(f, **values):
 
 @cache
 def written(parameters, model):
-    return functions(problem_of(dict(parameters), dict(model))).documented
+    return functions(problem_of(model.at(dict(parameters)))).documented
 
 
 @pytest.fixture(params=["table 1", "random"])
-def setup(request, table1, model, random_bogies):
-    """Return parameters, model, C_s and the functions: of Table I and of a random bogie, for each model."""
+def setup(request, table1, which, random_bogies):
+    """Return the vehicle and its functions: of Table I and of a random bogie, for each model."""
     if request.param == "random":
         table1 = next(p for p, _ in random_bogies(1, seed=31))
-    p = {k: x for k, x in table1.items() if model["kind"] == "power" or k not in MOTOR_KEYS}
-    return p, model, 8e5, written((*p.items(), ("C_s", 8e5)), tuple(model.items()))
+    p = {k: x for k, x in {**table1, "C_s": 8e5}.items() if which.kind == "power" or k not in MOTOR_KEYS}
+    return which.at(p), written(tuple(p.items()), which)
 
 
 def close(got, expected, rel=1e-12):
@@ -62,27 +74,28 @@ def close(got, expected, rel=1e-12):
 
 
 def test_state_matrix(setup):
-    p, model, C_s, f = setup
-    got = evaluated(f["state_matrix"])
-    system = StateSpace(physical(bogie({**p, "C_s": C_s}, **model)))
+    vehicle, f = setup
+    got, system = evaluated(f["state_matrix"]), vehicle.state_space
     B = np.zeros((system.size, 4))
-    for place, value in system.inputs.items():
+    for place, value in system.B.items():
         B[place] = value
-    assert got["A"] == pytest.approx(state_matrix(p, C_s, **model), rel=1e-12)
+    assert got["A"] == pytest.approx(state_matrix(vehicle), rel=1e-12)
     assert got["B"] == pytest.approx(B, rel=1e-12)
-    assert len(got["A"]) == (25 if model["kind"] == "power" else 15)
+    assert len(got["A"]) == (25 if vehicle.model.kind == "power" else 15)
     assert got["C"].shape == (len(got["C"]), len(got["A"]))
     assert not got["D"].any()
 
 
 def test_characteristic_polynomial(setup, rational):
-    p, model, C_s, f = setup
+    vehicle, f = setup
     got = evaluated(f["characteristic_polynomial"])
-    c = characteristic(p, **model)
-    assert got["core"] == pytest.approx(scale_variable(c.core(C_s), 100.0), rel=1e-12)
-    assert got["A"] + np.r_[0, got["B"][1:]][: len(got["A"])] * C_s == pytest.approx(got["core"][: len(got["A"])])
-    chi = paper_coefficients(rational(p), int(C_s), **model)
-    assert len(chi) == (27 if model["kind"] == "power" else 17)
+    assert got["core"] == pytest.approx(coupled_polynomial(vehicle), rel=1e-12)
+    assert got["A"] + np.r_[0, got["B"][1:]][: len(got["A"])] * vehicle.C_s == pytest.approx(
+        got["core"][: len(got["A"])]
+    )
+    exact = Vehicle(vehicle.model, {**rational(vehicle.p), "C_s": int(vehicle.C_s)})
+    chi = exact.paper_coefficients()
+    assert len(chi) == (27 if vehicle.model.kind == "power" else 17)
     assert got["chi_sign"].tolist() == [1.0 if x > 0 else -1.0 for x in chi]
     # Logarithms of integers of any size.
     expected = [(math.log(abs(int(x.p))) - math.log(int(x.q))) / math.log(10) for x in chi]
@@ -90,18 +103,18 @@ def test_characteristic_polynomial(setup, rational):
 
 
 def test_routh_column_and_hurwitz_minors(setup):
-    p, model, C_s, f = setup
-    expected = routh_column(scale_variable(characteristic(p, **model).core(C_s), 100.0))
+    vehicle, f = setup
+    expected = routh_column(coupled_polynomial(vehicle))
     assert evaluated(f["routh_column"])["column"] == pytest.approx(expected, rel=1e-12)
-    signs, logarithms = hurwitz_minors(paper_coefficients(p, C_s, **model, unit=100.0))
+    signs, logarithms = hurwitz_minors(vehicle.paper_coefficients(100.0))
     got = evaluated(f["hurwitz_minors"])
     assert got["sign"].tolist() == signs
     assert got["log10"] == pytest.approx(logarithms, rel=1e-12)
 
 
 def test_critical_damping(setup):
-    p, model, _, f = setup
-    found = critical_damping(p, **model).critical
+    vehicle, f = setup
+    found = critical_damping(vehicle).critical
     if not found:
         assert not evaluated(f["critical_damping"])["residual"] < 1e-10
         return
@@ -109,8 +122,8 @@ def test_critical_damping(setup):
     assert got["residual"] < 1e-13
     assert got["C_sl"] == pytest.approx(found[0].C_s, rel=1e-11)
     assert got["omega"] == pytest.approx(found[0].omega, rel=1e-11)
-    names = graphs.parameter_names(p)
-    reference = graphs.critical_damping(names, **model)([p[x] for x in names], found[0].C_s, found[0].omega)
+    p, names = vehicle.p, boundary.parameter_names(vehicle.p)
+    reference = boundary.critical_damping(vehicle.model, names)([p[x] for x in names], found[0].C_s, found[0].omega)
     expected = dict(zip(names, np.array(reference[3]).ravel(), strict=True))
     inputs = [port.name for port in f["critical_damping"].inputs[:-2]]
     assert list(f["critical_damping"].outputs[3].rows) == inputs
@@ -118,22 +131,22 @@ def test_critical_damping(setup):
 
 
 def test_rotational_resistance(setup):
-    p, _, C_s, f = setup
-    curve = yd.table1().curve
+    vehicle, f = setup
+    p, curve = vehicle.p, yd.table1().curve
     got = evaluated(f["rotational_resistance"])
-    assert got["X"] == pytest.approx(rotational_resistance(p, C_s, curve), rel=1e-12)
-    assert got["T"] == pytest.approx(resisting_moment(p, C_s, curve), rel=1e-12)
+    assert got["X"] == pytest.approx(rotational_resistance(p, vehicle.C_s, curve), rel=1e-12)
+    assert got["T"] == pytest.approx(resisting_moment(p, vehicle.C_s, curve), rel=1e-12)
     assert got["C_su"] == pytest.approx(curving_limit(p, curve), rel=1e-12)
     assert evaluated(f["rotational_resistance"], limit=0.1)["C_su"] > got["C_su"]
 
 
 def test_stability_margin(setup):
-    p, model, C_s, f = setup
-    core = scale_variable(characteristic(p, **model).core(C_s), 100.0)
+    vehicle, f = setup
+    core = coupled_polynomial(vehicle)
     got = evaluated(f["stability_margin"], sigma=0.7, zeta=0.02)
     assert got["decay_column"] == pytest.approx(routh_column(shift(core, -0.007)), rel=1e-12)
     assert got["ratio_column"] == pytest.approx(sector_column(core, 0.02), rel=1e-11)
-    s = core_eigenvalues(p, C_s, **model)
+    s = motion_eigenvalues(vehicle, vehicle.coupled)
     for by in (-1e-3, 1e-3):
         got = evaluated(f["stability_margin"], sigma=decay_rate(s) + by, zeta=max(damping_ratio(s) + by, 0))
         assert np.all(got["decay_column"] > 0) == (by < 0)
@@ -141,11 +154,11 @@ def test_stability_margin(setup):
 
 
 def test_margin_equations(setup):
-    p, model, C_s, f = setup
+    vehicle, f = setup
     got = evaluated(f["margin_equations"], sigma=0.0, zeta=0.05)
-    core = scale_variable(characteristic(p, **model).core(C_s), 100.0)
+    core = coupled_polynomial(vehicle)
     assert np.abs(got["residual"] / np.array(core[:-1]) * core[-1]).max() < 1e-9
-    s = core_eigenvalues(p, C_s, **model) / 100
+    s = motion_eigenvalues(vehicle, vehicle.coupled) / 100
     oscillating = s[s.imag > 0]
     assert got["sector"][: len(oscillating)] == pytest.approx(4 * oscillating.real**2 - 0.01 * abs(oscillating) ** 2)
     moved = evaluated(f["margin_equations"], sigma=1.0)["residual"]
@@ -153,16 +166,15 @@ def test_margin_equations(setup):
 
 
 def test_dynamic_stiffness(setup):
-    p, _, C_s, f = setup
-    Z = 1 / (1 / p["K_ds"] + 1 / (C_s * 20j))
+    vehicle, f = setup
+    Z = 1 / (1 / vehicle.p["K_ds"] + 1 / (vehicle.C_s * 20j))
     got = evaluated(f["dynamic_stiffness"], omega=20.0)
     assert complex(got["Z_re"], got["Z_im"]) == pytest.approx(Z, rel=1e-12)
     assert (got["K_dyn"], got["phase"]) == pytest.approx((abs(Z), np.angle(Z)), rel=1e-12)
 
 
-def test_baked_parameters_give_the_same_numbers(model):
-    p = {**yd.table1().bogie.parameters(), "v": 300 / 3.6}
-    task = problem_of(p, model)
+def test_baked_parameters_give_the_same_numbers(which):
+    task = problem_of(which.at(yd.table1().bogie.parameters(), v=300 / 3.6))
     free = functions(task).documented
     for inputs in ((), ("C_s", "K_ds", "v")):
         fixed = functions(task, inputs).documented
@@ -188,9 +200,9 @@ def test_a_damper_without_damping_that_is_known_not_to_be_there():
     task = yd.table1().replace(C_m=0.0)
     f = functions(task, inputs=("C_s",)).documented
     column = evaluated(f["routh_column"])["column"]
-    p = {**task.bogie.parameters(), "v": 300 / 3.6}
+    vehicle = Model().at(task.bogie.parameters(), v=300 / 3.6, C_s=1e6)
     assert np.all(np.isfinite(column))
-    assert np.all(column > 0) == bool(decay_rate(core_eigenvalues(p, 1e6)) > 0)
+    assert np.all(column > 0) == bool(decay_rate(motion_eigenvalues(vehicle, vehicle.coupled)) > 0)
     assert evaluated(f["state_matrix"])["A"].shape == (23, 23)
     assert set(functions(task)) == set(NAMES)  # as an input it begins at next to nothing
 
@@ -221,10 +233,10 @@ def test_nested_derivatives():
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("method", ["newton", "kinsol"])
 def test_only_fast_newton_becomes_c(method):
-    names = Setting.of(yd.table1(), None).bogie
+    model, names = Model(), ParametricModel.of(yd.table1(), None).bogie
     with pytest.raises(RuntimeError, match="cannot write C code"):
-        c_source("bad", {"bad": graphs.rootfinder(names, method=method)})
-    assert "#error" not in c_source("good", {"good": graphs.rootfinder(names, method="fast_newton")})
+        c_source("bad", {"bad": boundary.rootfinder(model, names, method=method)})
+    assert "#error" not in c_source("good", {"good": boundary.rootfinder(model, names, method="fast_newton")})
 
 
 def test_mistakes_are_named():
@@ -237,7 +249,7 @@ def test_mistakes_are_named():
     with pytest.raises(yd.ProblemError, match="there are state_matrix, "):
         functions(task, only=("zzz",))
     with pytest.raises(yd.ProblemError, match=r"C_m"):
-        functions(problem_of({**task.bogie.parameters(), "v": 80.0}, TRAILER), inputs=("C_m",))
+        functions(problem_of(TRAILER.at(task.bogie.parameters(), v=80.0)), inputs=("C_m",))
 
 
 def test_what_has_no_single_value_must_be_an_input():
@@ -271,17 +283,18 @@ def test_documentation():
         _ = f["nothing"]
 
 
-def test_drafts_say_what_is_missing():
-    draft = Draft(Setting.of(yd.table1().replace(C_s=None), inputs=()))
+def test_a_function_says_what_is_missing():
+    f = SymbolicFunction(ParametricModel.of(yd.table1().replace(C_s=None), free=()))
     with pytest.raises(yd.ProblemError, match="C_s: has no single value"):
-        draft.parameters(["C_s"])
+        f.parameters(["C_s"])
 
 
-def test_state_space(model):
-    task = problem_of({**yd.table1().bogie.parameters(), "v": 300 / 3.6}, model)
+def test_state_space(which):
+    task = problem_of(which.at(yd.table1().bogie.parameters(), v=300 / 3.6))
     system = yd.state_space(task)
-    s = yd.stability(task).eigenvalues
-    assert eigenvalues(system.A) == pytest.approx(np.array(s), rel=1e-9)
+    found, wanted = np.linalg.eigvals(system.A), yd.stability(task).eigenvalues
+    by_frequency = [np.array(sorted(values, key=lambda s: (s.imag, s.real))) for values in (found, wanted)]
+    assert by_frequency[0] == pytest.approx(by_frequency[1], rel=1e-9)
     # Force over displacement of the yaw damper, whatever moves the bogie, is its dynamic stiffness.
     x = np.linalg.solve(20j * np.eye(len(system.A)) - system.A, system.B[:, 0])
     y = dict(zip(system.outputs, system.C @ x, strict=True))
@@ -304,13 +317,17 @@ def test_old_names_of_states_and_outputs_are_found():
         assert before in model.states
     assert [model.outputs.index(name) for name in ("F_s", "u_s")] == [20, 21]
     assert "F_m" not in model.outputs
+    A, _, C, _ = yd.functions(yd.table1()).documented["state_matrix"].outputs
+    assert [A.rows.index(name) for name in old] == [model.states.index(name) for name in old]
+    assert [C.rows.index(name) for name in ("F_s", "u_s")] == [20, 21]
+    assert "v_y_b" in C.columns
     with pytest.raises(ValueError, match="not in tuple"):
         model.states.index("z_6")
 
 
-def test_one_vocabulary_with_the_runs(model):
+def test_one_vocabulary_with_the_runs(which):
     """What the state space calls its states and outputs is what a run gives by these names."""
-    problem = yd.table1(model["kind"], equations=model["equations"])
+    problem = yd.table1(which.kind, equations=which.equations)
     space = yd.state_space(problem)
     history = yd.simulate(problem, duration="2 s").histories[0]
     x = np.stack([history[name] for name in space.states], axis=1)
@@ -336,9 +353,13 @@ def test_state_space_without_python_control(monkeypatch):
 
 
 def test_state_space_without_damping():
-    system = yd.state_space(yd.table1().replace(C_s=0.0))
+    problem = yd.table1().replace(C_s=0.0)
+    system, damped = yd.state_space(problem), yd.state_space(yd.table1())
     assert system.A.shape == (24, 24)
+    assert (system.outputs, system.output_units) == (damped.outputs, damped.output_units)
     assert not system.C[system.outputs.index("F_s")].any()
+    displacement = dict(zip(system.states, system.C[system.outputs.index("u_s")], strict=True))
+    assert {name: x for name, x in displacement.items() if x} == {"phi_b": problem.bogie.b_3}
     with pytest.raises(yd.ProblemError, match="C_s"):
         yd.state_space(yd.table1().replace(C_s=None))
 

@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 import yawdesign as yd
-from yawdesign.hunting.old import critical_damping
+from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.vehicle.vehicle import Vehicle
 
 OCTAVE = shutil.which("octave-cli") or shutil.which("octave")
 DOCS = Path(__file__).parents[2] / "docs" / "export-matlab.md"
@@ -105,5 +106,5 @@ def test_the_program_of_the_page(tmp_path):
     yd.export(yd.table1(), tmp_path / "exported", only="critical_damping,c", inputs="v")
     _, program = re.findall(r"```matlab\n(.*?)```", DOCS.read_text(encoding="utf-8"), re.DOTALL)
     assert program.startswith("cd exported\nmex ")
-    values = [x.C_s for x in critical_damping({**yd.table1().bogie.parameters(), "v": 300 / 3.6}).critical]
+    values = [x.C_s for x in critical_damping(Vehicle.of(yd.table1())[0]).critical]
     assert float(octave(tmp_path, program + "printf('%.17g', C_sl)")) == pytest.approx(max(values), rel=1e-9)

@@ -19,7 +19,7 @@ from typer.testing import CliRunner
 import yawdesign as yd
 from yawdesign.cli import app
 from yawdesign.exports import folder, write
-from yawdesign.exports.parcel import Unavailable
+from yawdesign.exports.file_contents import Unavailable
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
 DATA = Path(__file__).parents[1] / "data"
@@ -234,7 +234,7 @@ def test_what_cannot_be_written_is_left_out_with_a_note(tmp_path, monkeypatch):
     assert manifest_of(tmp_path / "out")["functions"]["critical_damping"]["self_test"] is None
     assert result.to_dict()["folder"] == str(tmp_path / "out")
 
-    def fails(parcel, to):
+    def fails(contents, to):
         raise Unavailable("no compiler")
 
     monkeypatch.setattr(write, "FORMATS", {"c": write.write_c, "fmu": fails})
@@ -333,7 +333,7 @@ def test_force_in_a_folder_of_somebody_else(tmp_path):
 
 
 def test_a_run_that_fails_leaves_nothing(tmp_path, monkeypatch):
-    def breaks(parcel, to):
+    def breaks(contents, to):
         (to / "half.txt").write_text("half")
         raise RuntimeError("in the middle")
 

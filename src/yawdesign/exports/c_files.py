@@ -6,7 +6,7 @@ from string import Template
 
 from yawdesign.exports.functions import Documented, work_sizes
 from yawdesign.exports.names import ExportNames
-from yawdesign.exports.ports import Port
+from yawdesign.exports.symbolic_function import Port
 from yawdesign.exports.templates import EXAMPLE, HEADER, MAKEFILE, SELF_TEST
 from yawdesign.problem.characters import printable
 

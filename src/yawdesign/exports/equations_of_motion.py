@@ -6,14 +6,11 @@ from dataclasses import dataclass
 import casadi as ca
 
 from yawdesign.exports.functions import c_source, work_sizes
-from yawdesign.exports.states import state_names, state_space_matrices
-from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.old import DAMPERS, YAW_DAMPER, YAW_FORCE, StateSpace, bogie, physical
-from yawdesign.vehicle.signals import OLD_OUTPUTS, SignalNames, acceleration
+from yawdesign.exports.state_space import matrices, of_yaw_dampers
+from yawdesign.vehicle.signals import SignalNames, acceleration
+from yawdesign.vehicle.vehicle import Vehicle
 
-# A damper in series with its joints: without damping it has no force, and its dashpot no equation.
-IN_SERIES = ("C_s", "C_t", "C_m")
-LEAST_DAMPING = 1e-9  # N s/m; a damper with less is left out
+LEAST_DAMPING = 1e-9  # N s/m; a damper with less is left out: its stroke has no equation without damping
 
 
 @dataclass(frozen=True)
@@ -24,57 +21,58 @@ class EquationsOfMotion:
     ----------
     parameters : tuple of str
         Symbols of Table I, `C_s` and ``v``, without the damping of dampers that are not there.
-    inputs, states : tuple of str
-        Names as in `yawdesign.state_space` and `yawdesign.simulate`.
-    dashpots : tuple of str
-        Names of the dampers to which the last states belong.
-    outputs : tuple of str
+    vehicle : Vehicle
+        The vehicle of these symbols; its state space has the names and units of inputs and states.
+    outputs : SignalNames
         Accelerations ``y_b_acceleration``, ...; ``yaw_damper_force``, ``yaw_damper_pair_force`` and
-        ``yaw_damper_displacement``, and the last two again by the names of version 0.1.
+        ``yaw_damper_displacement``.
     function : casadi.Function
-        Inputs ``p``, ``u``, ``x``, vectors in the orders above, SI; outputs ``dx`` and ``y``.
+        Inputs ``p``, ``u``, ``x``, vectors in the orders of parameters, inputs and states, SI; outputs ``dx`` and
+        ``y``, which has the `outputs` and after them those that have an old name once more.
     """
 
     parameters: tuple[str, ...]
-    inputs: tuple[str, ...]
-    states: SignalNames
-    dashpots: tuple[str, ...]
-    outputs: tuple[str, ...]
+    vehicle: Vehicle
+    outputs: SignalNames
     function: ca.Function
 
 
-def equations_of_motion(p: Parameters, model: Mapping[str, str]) -> EquationsOfMotion:
-    """Return the equations of motion of a bogie.
+def equations_of_motion(vehicle: Vehicle) -> EquationsOfMotion:
+    """Return the equations of motion of a vehicle.
 
     Parameters
     ----------
-    p : mapping
-        Symbols of Table I in SI units, `C_s` and ``v``. Only their names count, and which dampers have no damping:
-        those are left out, with their dashpot's state and their parameter.
-    model : mapping
-        ``kind`` and ``equations`` as in `yawdesign.vehicle.catalogue.bogie`.
+    vehicle : Vehicle
+        Of its numbers only the names count, and which dampers have no damping: those are left out, with their dashpot's
+        state and their parameter.
 
     Examples
     --------
     >>> from yawdesign import table1
-    >>> motion = equations_of_motion({**table1().bogie.parameters(), "v": 83.0}, {"kind": "power"})
-    >>> len(motion.states), motion.states[0], motion.states[10], motion.states[20], motion.dashpots[0]
-    (25, 'y_b', 'y_b_velocity', 'yaw_damper_stroke', 'yaw damper')
+    >>> from yawdesign.vehicle.vehicle import Model
+    >>> motion = equations_of_motion(Model().at(table1().bogie.parameters(), v=83.0))
+    >>> states = motion.vehicle.state_space.states
+    >>> len(states), states[0], states[10], states[20], motion.outputs[-1]
+    (25, 'y_b', 'y_b_velocity', 'yaw_damper_stroke', 'yaw_damper_displacement')
     """
-    absent = {name: 0 for name in IN_SERIES if name in p and p[name] < LEAST_DAMPING}
+    p, model = vehicle.p, vehicle.model
+    absent = {name: 0 for name in model.joints if p[name] < LEAST_DAMPING}
     names = tuple(name for name in p if name not in absent)
     vector = ca.SX.sym("p", len(names))
-    symbols = {**dict(zip(names, ca.vertsplit(vector), strict=True)), **absent}
-    along = state_names(symbols, symbols["C_s"], model)
-    u, x = ca.SX.sym("u", len(along.inputs)), ca.SX.sym("x", len(along.states))
-    A, B, C, _ = state_space_matrices(symbols, symbols["C_s"], model).values()
-    dx, coordinates = ca.densify(A @ x + B @ u), (len(along.outputs) - len(OLD_OUTPUTS)) // 2
-    accelerations, of_damper = dx[coordinates : 2 * coordinates], ca.densify((C @ x)[-len(OLD_OUTPUTS) :])
-    y = ca.vertcat(accelerations, of_damper[0] / DAMPERS[YAW_DAMPER], of_damper, of_damper)
-    function = ca.Function("equations_of_motion", [vector, u, x], [dx, y], ["p", "u", "x"], ["dx", "y"])
-    dashpots = tuple(link.name for link, _ in StateSpace(physical(bogie(symbols, **model))).strokes)
-    outputs = (*map(acceleration, along.states[:coordinates]), YAW_FORCE, *OLD_OUTPUTS.values(), *OLD_OUTPUTS)
-    return EquationsOfMotion(names, along.inputs, along.states, dashpots, outputs, function)
+    free = model.at({**dict(zip(names, ca.vertsplit(vector), strict=True)), **absent})
+    system = free.state_space
+    forces = of_yaw_dampers(system, "force", "pair force", "displacement")
+    u, x = ca.SX.sym("u", len(system.inputs)), ca.SX.sym("x", system.size)
+    A, B, C, D = matrices(system, forces).values()
+    dx = ca.densify(A @ x + B @ u)
+    # Accelerations by their own rows of C and D would be written once more, which makes the C code a quarter longer.
+    n = len(system.coordinates)
+    y = ca.vertcat(dx[n : 2 * n], ca.densify(C @ x + D @ u))
+    outputs = SignalNames((*map(acceleration, system.coordinates), *forces))
+    again = [y[outputs.index(name)] for name in outputs.aliases]
+    results = [dx, ca.vertcat(y, *again)]
+    function = ca.Function("equations_of_motion", [vector, u, x], results, ["p", "u", "x"], ["dx", "y"])
+    return EquationsOfMotion(names, free, outputs, function)
 
 
 def motion_source(motion: EquationsOfMotion) -> tuple[str, Mapping[str, int]]:

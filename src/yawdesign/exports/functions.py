@@ -10,7 +10,8 @@ import casadi as ca
 import numpy as np
 
 from yawdesign.exports.builders import BUILDERS
-from yawdesign.exports.ports import Draft, Port, Setting
+from yawdesign.exports.parametric_model import ParametricModel
+from yawdesign.exports.symbolic_function import Port, SymbolicFunction
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, suggestion
 from yawdesign.problem.result import plain
@@ -136,8 +137,8 @@ def functions(
     >>> round(float(f(v=350 / 3.6, C_s_start=2e5, omega_start=22)["C_sl"]), 2)
     255130.52
     """
-    setting = Setting.of(problem, None if inputs is None else listed(inputs))
-    return Functions({name: _documented(name, setting) for name in _wanted(only, setting)})
+    parametric = ParametricModel.of(problem, None if inputs is None else listed(inputs))
+    return Functions({name: _documented(name, parametric) for name in _wanted(only, parametric)})
 
 
 def listed(names: Collection[str]) -> tuple[str, ...]:
@@ -146,9 +147,9 @@ def listed(names: Collection[str]) -> tuple[str, ...]:
     return tuple(name.strip() for name in parts if name.strip())
 
 
-def _wanted(only: Collection[str] | None, setting: Setting) -> tuple[str, ...]:
+def _wanted(only: Collection[str] | None, parametric: ParametricModel) -> tuple[str, ...]:
     if only is None:
-        return tuple(name for name in BUILDERS if name != "rotational_resistance" or setting.curves)
+        return tuple(name for name in BUILDERS if name != "rotational_resistance" or parametric.resists)
     mistakes = Mistakes()
     names = listed(only)
     for name in names:
@@ -160,15 +161,15 @@ def _wanted(only: Collection[str] | None, setting: Setting) -> tuple[str, ...]:
     return tuple(name for name in BUILDERS if name in names)
 
 
-def _documented(name: str, setting: Setting) -> Documented:
-    draft, build = Draft(setting, ca.MX if name in ROOTFINDING else ca.SX), BUILDERS[name]
-    build(draft)
+def _documented(name: str, parametric: ParametricModel) -> Documented:
+    f, build = SymbolicFunction(parametric, ca.MX if name in ROOTFINDING else ca.SX), BUILDERS[name]
+    build(f)
     return Documented(
-        function=draft.function(name),
+        function=f.function(name),
         meaning=(build.__doc__ or "").strip(),
-        inputs=tuple(port for port, _ in draft.inputs),
-        outputs=tuple(port for port, _ in draft.outputs),
-        baked=draft.baked,
+        inputs=tuple(port for port, _ in f.inputs),
+        outputs=tuple(port for port, _ in f.outputs),
+        baked=f.baked,
     )
 
 

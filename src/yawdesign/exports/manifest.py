@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from yawdesign.exports.c_files import signature, vector_sizes
+from yawdesign.exports.file_contents import FileContents
 from yawdesign.exports.folder import GENERATOR, MANIFEST, write_text
 from yawdesign.exports.functions import Documented, Functions, versions
-from yawdesign.exports.parcel import Parcel
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.problem.result import plain
 
@@ -21,30 +21,32 @@ C_TYPES = {"casadi_real": "double", "casadi_int": "long long int"}
 TOLERANCE = {"relative": 1e-9, "absolute": 1e-12, "meaning": "relative to the largest entry of each output"}
 
 
-def write_manifest(parcel: Parcel, files: Sequence[str], notes: Sequence[str], folder: Path) -> str:
+def write_manifest(contents: FileContents, files: Sequence[str], notes: Sequence[str], folder: Path) -> str:
     """Write manifest.json and return its name."""
-    described = Functions(parcel.functions).to_dict()
+    described = Functions(contents.functions).to_dict()
     manifest = {
         "generator": GENERATOR,
         "versions": versions(),
-        "title": parcel.problem.title,
-        "kind": parcel.problem.bogie.kind,
-        "equations": parcel.problem.equations,
-        "load": None if parcel.problem.curve is None else parcel.problem.curve.load,
+        "title": contents.problem.title,
+        "kind": contents.problem.bogie.kind,
+        "equations": contents.problem.equations,
+        "load": None if contents.problem.curve is None else contents.problem.curve.load,
         "matrices": "column by column, in C, in the self-tests and in lists of units",
         "c_types": C_TYPES,
         "tolerance": TOLERANCE,
         "files": [*files, MANIFEST],
         "notes": list(notes),
-        "functions": {name: _entry(name, described[name], f, parcel, files) for name, f in parcel.functions.items()},
+        "functions": {
+            name: _entry(name, described[name], f, contents, files) for name, f in contents.functions.items()
+        },
     }
     return write_text(folder / MANIFEST, json.dumps(plain(manifest), indent=1, ensure_ascii=False) + "\n")
 
 
 def _entry(
-    name: str, described: Mapping[str, Any], f: Documented, parcel: Parcel, files: Sequence[str]
+    name: str, described: Mapping[str, Any], f: Documented, contents: FileContents, files: Sequence[str]
 ) -> dict[str, Any]:
-    names, s = parcel.names, parcel.names.symbol(name)
+    names, s = contents.names, contents.names.symbol(name)
     own = {"casadi": f"{name}.casadi", "c": names.source, "header": names.header}
     return {
         "files": {kind: file for kind, file in own.items() if file in files},
@@ -55,7 +57,7 @@ def _entry(
         **described,
         "time_scale": TIME_SCALE,
         "versions": versions(),
-        "self_test": parcel.tests[name],
+        "self_test": contents.tests[name],
     }
 
 

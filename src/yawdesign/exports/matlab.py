@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from yawdesign.exports.parcel import Parcel, Unavailable
+from yawdesign.exports.file_contents import FileContents, Unavailable
 from yawdesign.exports.state_space import state_space
 from yawdesign.problem import ProblemError
 from yawdesign.problem.characters import printable
@@ -12,12 +12,12 @@ from yawdesign.problem.characters import printable
 STATE_SPACE = "state_space.mat"
 
 
-def write_mat(parcel: Parcel, folder: Path) -> list[str]:
+def write_mat(contents: FileContents, folder: Path) -> list[str]:
     """Write A, B, C, D, the names and units of states, inputs and outputs, C_s, speed and parameters."""
     from scipy.io import savemat
 
     try:
-        model = state_space(parcel.problem)
+        model = state_space(contents.problem)
     except ProblemError as error:
         raise Unavailable(f"{STATE_SPACE} left out: {error}") from None
     content: dict[str, object] = {name: getattr(model, name) for name in ("A", "B", "C", "D", "C_s", "speed")}
@@ -25,6 +25,6 @@ def write_mat(parcel: Parcel, folder: Path) -> list[str]:
     for kind in ("state", "input", "output"):
         content[kind + "_names"] = np.array(getattr(model, kind + "s"), dtype=object)
         content[kind + "_units"] = np.array(getattr(model, kind + "_units"), dtype=object)
-    content["parameters"] = {name: float(x) for name, x in parcel.problem.bogie.parameters().items()}
+    content["parameters"] = {name: float(x) for name, x in contents.problem.bogie.parameters().items()}
     savemat(folder / STATE_SPACE, content, oned_as="column")
     return [STATE_SPACE]

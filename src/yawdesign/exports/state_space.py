@@ -1,16 +1,19 @@
 """The linear model of a problem as plain matrices."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
+import casadi as ca
 
-from yawdesign.exports.functions import functions
-from yawdesign.exports.states import state_names
+from yawdesign.exports.parametric_model import ParametricModel
+from yawdesign.exports.symbolic_function import SymbolicFunction
 from yawdesign.hunting.arrays import Float
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.result import Result
-from yawdesign.vehicle.signals import SignalNames
+from yawdesign.vehicle.elements import Link
+from yawdesign.vehicle.signals import SignalNames, of_damper
+from yawdesign.vehicle.state_space import Entries, StateSpace
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -89,14 +92,49 @@ def state_space(problem: Problem) -> StateSpaceModel:
     >>> model.A.shape, model.B.shape, model.inputs[0]
     ((25, 25), (25, 4), 'alignment_1')
     """
-    found = functions(problem, inputs=(), only=("state_matrix",))["state_matrix"]()
-    p, C_s = problem.bogie.parameters(), float(problem.bogie.C_s or 0.0)
-    names = state_names({**p, "v": problem.speeds[0]}, C_s, problem.model)
-    matrices: dict[str, Any] = {name: np.array(found[name].full()) for name in "ABCD"}
+    vehicle = SymbolicFunction(ParametricModel.of(problem, free=())).vehicle()
+    system = vehicle.state_space
+    outputs = exported_outputs(system)
     return StateSpaceModel(
-        **matrices,
-        **vars(names),
-        C_s=C_s,
-        speed=float(problem.speeds[0]),
+        **{name: ca.evalf(matrix).full() for name, matrix in matrices(system, outputs).items()},
+        states=system.states,
+        inputs=system.inputs,
+        outputs=outputs,
+        state_units=system.state_units,
+        input_units=system.input_units,
+        output_units=tuple(map(system.unit_of, outputs)),
+        C_s=vehicle.C_s,
+        speed=vehicle.v,
         title=problem.title,
     )
+
+
+def exported_outputs(system: StateSpace) -> SignalNames:
+    """Return the names of coordinates, velocities, and force and displacement of the yaw dampers."""
+    moves = system.states[: 2 * len(system.coordinates)]
+    return SignalNames((*moves, *of_yaw_dampers(system, "pair force", "displacement")))
+
+
+def of_yaw_dampers(system: StateSpace, *what: str) -> list[str]:
+    """Return the names of what belongs to each pair of yaw dampers."""
+    dampers = [link.name for link in system.elements if isinstance(link, Link) and link.varied]
+    return [of_damper(name, each) for name in dampers for each in what]
+
+
+def matrices(system: StateSpace, outputs: Sequence[str]) -> dict[str, ca.SX]:
+    """Return A, B, C and D for some of the outputs; what is structurally zero has no entry."""
+    C, D = system.rows_of(outputs)
+    n, inputs = system.size, len(system.inputs)
+    return {
+        "A": _matrix(system.A, n, n),
+        "B": _matrix(system.B, n, inputs),
+        "C": _matrix(C, len(outputs), n),
+        "D": _matrix(D, len(outputs), inputs),
+    }
+
+
+def _matrix(entries: Entries, rows: int, columns: int) -> ca.SX:
+    matrix = ca.SX(rows, columns)
+    for place, value in entries.items():
+        matrix[place] = value
+    return matrix

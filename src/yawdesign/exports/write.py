@@ -6,13 +6,13 @@ from os import PathLike
 from pathlib import Path
 
 from yawdesign.exports import c_files
+from yawdesign.exports.file_contents import FileContents, Unavailable
 from yawdesign.exports.fmu.archive import write_fmu
 from yawdesign.exports.folder import check_place, exported_folder, write_text
 from yawdesign.exports.functions import c_source, functions, listed, self_test, versions
 from yawdesign.exports.manifest import write_manifest
 from yawdesign.exports.matlab import write_mat
 from yawdesign.exports.names import PREFIX, ExportNames
-from yawdesign.exports.parcel import Parcel, Unavailable
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result
@@ -29,9 +29,9 @@ class Export(Result):
     folder : str
         Where.
     files : tuple of str
-        ExportNames in the folder; ``manifest.json`` tells what is in each.
+        Names in the folder; ``manifest.json`` tells what is in each.
     functions : tuple of str
-        ExportNames of the functions.
+        Names of the functions.
     notes : tuple of str
         What was left out, and why.
     """
@@ -42,34 +42,34 @@ class Export(Result):
     notes: tuple[str, ...]
 
 
-def write_casadi(parcel: Parcel, folder: Path) -> list[str]:
+def write_casadi(contents: FileContents, folder: Path) -> list[str]:
     """Write one .casadi file for each function."""
-    for name, f in parcel.functions.items():
+    for name, f in contents.functions.items():
         f.function.save(str(folder / f"{name}.casadi"))
-    return [f"{name}.casadi" for name in parcel.functions]
+    return [f"{name}.casadi" for name in contents.functions]
 
 
-def write_c(parcel: Parcel, folder: Path) -> list[str]:
+def write_c(contents: FileContents, folder: Path) -> list[str]:
     """Write C source and header of all functions, a self-test, an example and a Makefile."""
-    names = parcel.names
-    source = c_source(names.prefix, {names.symbol(name): f.function for name, f in parcel.functions.items()})
-    title = f"{parcel.problem.title or 'Bogie'} ({parcel.problem.bogie.kind}, {parcel.problem.equations})"
+    names = contents.names
+    source = c_source(names.prefix, {names.symbol(name): f.function for name, f in contents.functions.items()})
+    title = f"{contents.problem.title or 'Bogie'} ({contents.problem.bogie.kind}, {contents.problem.equations})"
     about = f"{title}: functions written by yawdesign {versions()['yawdesign']} with CasADi {versions()['casadi']}"
-    chosen = "critical_damping" if "critical_damping" in parcel.functions else next(iter(parcel.functions))
+    chosen = "critical_damping" if "critical_damping" in contents.functions else next(iter(contents.functions))
     texts = {
         names.source: source,
-        names.header: c_files.header(parcel.functions, about, names),
-        "selftest.c": c_files.self_test_source({name: test for name, test in parcel.tests.items() if test}, names),
-        "example.c": c_files.example_source(chosen, parcel.functions[chosen], names),
+        names.header: c_files.header(contents.functions, about, names),
+        "selftest.c": c_files.self_test_source({name: test for name, test in contents.tests.items() if test}, names),
+        "example.c": c_files.example_source(chosen, contents.functions[chosen], names),
         "Makefile": c_files.makefile(names),
     }
     return [write_text(folder / name, text) for name, text in texts.items()]
 
 
-def write_fmu_file(parcel: Parcel, folder: Path) -> list[str]:
+def write_fmu_file(contents: FileContents, folder: Path) -> list[str]:
     """Write the linear motion as an FMU, which has all parameters whatever stays an input of the functions."""
     try:
-        fmu = write_fmu(parcel.problem, folder / FMU)
+        fmu = write_fmu(contents.problem, folder / FMU)
     except ProblemError as error:
         raise Unavailable(f"{FMU} left out: {error}") from None
     if fmu.platform is None:
@@ -77,7 +77,7 @@ def write_fmu_file(parcel: Parcel, folder: Path) -> list[str]:
     return [FMU]
 
 
-FORMATS: Mapping[str, Callable[[Parcel, Path], list[str]]] = {
+FORMATS: Mapping[str, Callable[[FileContents, Path], list[str]]] = {
     "casadi": write_casadi,
     "c": write_c,
     "mat": write_mat,
@@ -132,10 +132,10 @@ def export(
     documented = functions(problem, inputs, only).documented
     if not documented:
         raise ProblemError("no function is named: leave `only` out to export all")
-    parcel = Parcel(problem, documented, {name: self_test(f) for name, f in documented.items()}, names)
+    contents = FileContents(problem, documented, {name: self_test(f) for name, f in documented.items()}, names)
     with exported_folder(Path(to), force=force) as folder:
-        files, notes = _write(parcel, wanted, folder)
-        files.append(write_manifest(parcel, files, notes, folder))
+        files, notes = _write(contents, wanted, folder)
+        files.append(write_manifest(contents, files, notes, folder))
     return Export(str(to), tuple(files), tuple(documented), tuple(notes))
 
 
@@ -162,16 +162,16 @@ def _formats(formats: Collection[str] | None) -> tuple[str, ...]:
     return names
 
 
-def _write(parcel: Parcel, formats: Collection[str], folder: Path) -> tuple[list[str], list[str]]:
+def _write(contents: FileContents, formats: Collection[str], folder: Path) -> tuple[list[str], list[str]]:
     files: list[str] = []
     notes = [
         f"{name} has no self-test: there is no critical damping with the problem's values"
-        for name, test in parcel.tests.items()
+        for name, test in contents.tests.items()
         if test is None
     ]
     for name in formats:
         try:
-            files += FORMATS[name](parcel, folder)
+            files += FORMATS[name](contents, folder)
         except Unavailable as reason:
             notes.append(str(reason))
             files += reason.files

@@ -23,8 +23,8 @@ def power_bogie(p: Parameters, equations: str = "reciprocal") -> list[Element]:
     acts_on = frozenset({"phi_m"}) if equations == "as-printed" else None
     lateral = (Spring(p["K_m"]), Maxwell(p["K_dm"] / 2, p["C_m"]))
     motor = (
-        Mass("y_m", p["M_m"], name="motor lateral"),
-        Mass("phi_m", p["J_m"], unit="rad", name="motor yaw", alone="motors yawing"),
+        Mass("y_m", p["M_m"], body="motor", name="motor lateral"),
+        Mass("phi_m", p["J_m"], unit="rad", body="motor", name="motor yaw", alone="motors yawing"),
         Link(lateral, {"y_b": 1, "y_m": -1}, lever={"phi_b": p["a_0"]}, name="motor damper"),
         Link((Spring(p["K_mphi"]), Dashpot(p["C_mphi"])), {"phi_b": 1, "phi_m": -1}, acts_on=acts_on),
     )
@@ -35,8 +35,8 @@ def trailer_bogie(p: Parameters, equations: str = "reciprocal") -> list[Element]
     """Return the elements of a bogie without motors. Parameters as in `power_bogie`."""
     arm_2, arm_1 = p["b_2"] * p["b_2"], p["b_1"] * p["b_1"]
     wheelset = (
-        Mass("y_w", p["M_w"], name="wheelset hunting", creeping="wheelset creep"),
-        Mass("phi_w", p["J_w"], unit="rad", name="wheelset hunting", creeping="wheelset creep"),
+        Mass("y_w", p["M_w"], body="wheelset", name="wheelset hunting", creeping="wheelset creep"),
+        Mass("phi_w", p["J_w"], unit="rad", body="wheelset", name="wheelset hunting", creeping="wheelset creep"),
         WheelRailContact("y_w", "phi_w", p["W"], p["lambda"], p["b"], p["r"], p["f_11"], p["f_22"], p["v"]),
         Link((Spring(p["K_1y"]),), {"y_b": 1, "y_w": -1}, lever={"phi_b": p["a"]}),
         Link((Spring(p["K_1x"] * arm_1),), {"phi_b": 1, "phi_w": -1}),
@@ -45,8 +45,8 @@ def trailer_bogie(p: Parameters, equations: str = "reciprocal") -> list[Element]
     lateral_damper = Link((lateral_law,), {"y_b": 1}, lever={"phi_b": p["b_0"]}, name="lateral damper")
     yaw_law = Maxwell(p["K_ds"], p.get("C_s", 0))
     return [
-        Mass("y_b", p["M_b"], name="frame lateral"),
-        Mass("phi_b", p["J_b"], unit="rad", name="frame yaw"),
+        Mass("y_b", p["M_b"], body="bogie frame", name="frame lateral"),
+        Mass("phi_b", p["J_b"], unit="rad", body="bogie frame", name="frame yaw"),
         Link((Spring(p["K_2y"]),), {"y_b": 1}),
         Link((Spring(p["K_2x"] * arm_2),), {"phi_b": 1}),
         Link((yaw_law,), {"phi_b": p["b_3"]}, name="yaw damper", pieces=2, varied=True),

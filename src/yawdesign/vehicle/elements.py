@@ -165,6 +165,8 @@ class Mass:
         Mass [kg], or moment of inertia [kg m^2].
     unit : {"m", "rad"}
         Unit of the coordinate.
+    body : str, optional
+        What it is part of, such as ``wheelset``; what follows is said of its coordinate.
     name : str, optional
         What a mode is called in which it moves most; the coordinate's own name if not given.
     creeping : str, optional
@@ -176,6 +178,7 @@ class Mass:
     coordinate: str
     m: Number
     unit: str = "m"
+    body: str = ""
     name: str = ""
     creeping: str = ""
     alone: str = ""
@@ -283,9 +286,11 @@ class Pair:
         shared = {x: g for x, g in element.gap.items() if x not in own} if sign == "+" else element.lever
         if not shared and not own:
             return None
+        # What changes its sign with the outer end is alike at both inner ones.
+        lever = element.outer if sign == "+" else {}
         # Half the sum of two forces is what each end's own equation sees; a shared body feels both ends: twice that.
-        ends = {**element.ends, **{x: 2 * element.ends.get(x, 1) for x in shared}}
-        return replace(element, gap={**shared, **own}, lever=element.outer, outer={}, ends=ends)
+        ends = {**element.ends, **{x: 2 * element.ends.get(x, 1) for x in (*shared, *lever)}}
+        return replace(element, gap={**shared, **own}, lever=lever, outer={}, ends=ends)
 
     def _rename(self, element: Single, suffix: str) -> Single:
         def new(x: str) -> str:

@@ -118,7 +118,7 @@ class StateSpace:
                 self._push(x, offset + self._place[other], times(times(constant, force), g))
 
     def _add_maxwell(self, link: Link, law: Maxwell) -> None:
-        if isinstance(law.c, (int, float)) and law.c == 0:
+        if _is_absent(law):
             return  # no damping, no force, no state
         if isinstance(law.K, float) and math.isinf(law.K):  # a rigid joint has no stroke of its own
             self._respond(link, law.c, len(self._masses))
@@ -148,8 +148,20 @@ class StateSpace:
         for contact in (e for e in self.elements if isinstance(e, WheelRailContact)):
             rows[f"lateral_force_{contact.y.removeprefix('y_w')}"] = (*self._lateral_force(contact), "N")
         for k, (link, law) in enumerate(self.strokes):
-            rows |= self._damper(2 * n + k, _name(link), link, law)
+            rows |= self._damper(link, law, 2 * n + k)
         return rows
+
+    @cached_property
+    def _absent(self) -> dict[str, tuple[Row, Row, str]]:
+        """The same of dampers without damping, which are no outputs unless they are asked for."""
+        rows: dict[str, tuple[Row, Row, str]] = {}
+        for link in (e for e in self.elements if isinstance(e, Link) and e.name):
+            for law in filter(_is_absent, link.maxwell):
+                rows |= self._damper(link, law)
+        return rows
+
+    def _row(self, output: str) -> tuple[Row, Row, str]:
+        return self._rows[output] if output in self._rows else self._absent[output]
 
     def _acceleration(self, row: int) -> tuple[Row, Row]:
         of_states, of_inputs = ({j: x for (i, j), x in m.items() if i == row} for m in (self.A, self.B))
@@ -166,13 +178,19 @@ class StateSpace:
         d = {self._input[name]: force for (row, name), force in contact.inputs().items() if row == contact.y}
         return c, d
 
-    def _damper(self, stroke: int, name: str, link: Link, law: Maxwell) -> dict[str, tuple[Row, Row, str]]:
-        """Return force and stroke of each damper, and, where a link stands for several, the force of all of them."""
-        displacement: Row = {self._place[x]: g for x, g in link.displacement.items()}
-        force: Row = {j: times(law.K, g) for j, g in displacement.items()} | {stroke: -law.K}
+    def _damper(self, link: Link, law: Maxwell, stroke: int | None = None) -> dict[str, tuple[Row, Row, str]]:
+        """Return force and stroke of each damper, and, where a link stands for several, the force of all of them.
+
+        Without a stroke there is no force.
+        """
+        name, displacement = _name(link), {self._place[x]: g for x, g in link.displacement.items()}
+        force: Row = {}
+        if stroke is not None:
+            force = {j: times(law.K, g) for j, g in displacement.items()} | {stroke: -law.K}
         each: Row = {j: x / link.pieces for j, x in force.items()} if link.pieces > 1 else force
         rows: dict[str, tuple[Row, Row, str]] = {of_damper(name, "force"): (each, {}, "N")}
-        rows[of_damper(name, "stroke")] = {stroke: 1}, {}, "m"
+        if stroke is not None:
+            rows[of_damper(name, "stroke")] = {stroke: 1}, {}, "m"
         if link.pieces > 1:
             rows[of_damper(name, "pair force")] = force, {}, "N"
             rows[of_damper(name, "displacement")] = displacement, {}, "m"
@@ -200,19 +218,26 @@ class StateSpace:
 
     def unit_of(self, output: str) -> str:
         """Return the SI unit of an output."""
-        return self._rows[output][2]
+        return self._row(output)[2]
 
     def rows_of(self, outputs: Sequence[str]) -> tuple[Entries, Entries]:
         """Return the entries of C and D for some of the outputs, in this order.
 
+        A damper without damping, which has no outputs of its own, has the force zero here.
+
         Raises
         ------
         KeyError
-            With the name of an output that this vehicle does not have, such as the force of a damper without damping.
+            With the name of an output that this vehicle does not have.
         """
-        rows = [self._rows[name] for name in outputs]
+        rows = [self._row(name) for name in outputs]
         C = {(i, j): x for i, (c, _, _) in enumerate(rows) for j, x in c.items()}
         return C, {(i, j): x for i, (_, d, _) in enumerate(rows) for j, x in d.items()}
+
+
+def _is_absent(law: Maxwell) -> bool:
+    """Return whether a damper is known to have no damping."""
+    return isinstance(law.c, (int, float)) and law.c == 0
 
 
 def _name(link: Link) -> str:

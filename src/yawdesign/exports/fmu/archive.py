@@ -17,6 +17,7 @@ from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.result import Result
 from yawdesign.problem.whole_files import refuse_existing, write_whole
+from yawdesign.vehicle.vehicle import Model
 
 REMEDY = "the FMU holds its C code only: before it runs it must be compiled, such as with `fmpy compile`"
 
@@ -85,20 +86,24 @@ def write_fmu(problem: Problem, path: str | Path, *, replace: bool = False) -> F
 
 def _texts(problem: Problem) -> dict[str, bytes]:
     """Return the files of the FMU, but for the library."""
-    p = {**problem.bogie.parameters(), "C_s": given_damping(problem), "v": max(problem.speeds)}
-    motion = equations_of_motion(p, problem.model)
-    table = variables(motion, p)
+    p = problem.bogie.parameters()
+    vehicle = Model.of(problem).at(p, C_s=given_damping(problem), v=max(problem.speeds))
+    motion = equations_of_motion(vehicle)
+    table = variables(motion, vehicle.p)
     source, sizes = motion_source(motion)
     frame = files("yawdesign.exports.fmu").joinpath("fmi3.c").read_text(encoding="utf-8")
-    token = f"{{{uuid.uuid5(uuid.NAMESPACE_OID, repr(table) + source + frame)}}}"
-    texts = {
-        "modelDescription.xml": model_description(table, token=token, title=_title(problem)),
-        "sources/buildDescription.xml": build_description(),
-        "sources/model.h": header(table, token=token, sizes=sizes),
-        "sources/motion.c": source,
-        "sources/fmi3.c": frame,
-    }
-    return {name: text.encode() for name, text in texts.items()}
+
+    def texts(token: str) -> dict[str, str]:
+        return {
+            "modelDescription.xml": model_description(table, token=token, title=_title(problem)),
+            "sources/buildDescription.xml": build_description(),
+            "sources/model.h": header(table, token=token, sizes=sizes),
+            "sources/motion.c": source,
+            "sources/fmi3.c": frame,
+        }
+
+    token = uuid.uuid5(uuid.NAMESPACE_OID, "".join(texts("").values()))
+    return {name: text.encode() for name, text in texts(f"{{{token}}}").items()}
 
 
 def _title(problem: Problem) -> str:

@@ -61,10 +61,10 @@ def fmi_unit(unit: str) -> str:
 
     Examples
     --------
-    >>> fmi_unit("kN·s·m/rad"), fmi_unit("kg·m²"), fmi_unit("-")
-    ('kN.s.m/rad', 'kg.m2', '1')
+    >>> fmi_unit("kN·s·m/rad"), fmi_unit("kg·m²"), fmi_unit("m/s^2"), fmi_unit("-")
+    ('kN.s.m/rad', 'kg.m2', 'm/s2', '1')
     """
-    return "1" if unit == "-" else unit.replace("·", ".").replace("²", "2")
+    return "1" if unit == "-" else unit.replace("·", ".").replace("²", "2").replace("^", "")
 
 
 def _add_units(root: ElementTree.Element, table: Sequence[FmuVariable]) -> None:

@@ -2,22 +2,18 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
-from yawdesign.exports.equations_of_motion import IN_SERIES, LEAST_DAMPING, EquationsOfMotion
+from yawdesign.exports.equations_of_motion import LEAST_DAMPING, EquationsOfMotion
+from yawdesign.exports.fmu.meanings import signal_meanings
 from yawdesign.problem import PARAMETERS
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import Parameter
-from yawdesign.vehicle.old import PAIR_FORCE, YAW_DISPLACEMENT, YAW_FORCE
-from yawdesign.vehicle.signals import OLD_OUTPUTS, velocity
+from yawdesign.vehicle.signals import rate_unit
+from yawdesign.vehicle.state_space import StateSpace
 
-_MOTION = {"y": ("m", "mm", "lateral displacement"), "phi": ("rad", "mrad", "yaw angle")}
-_BODIES = {"b": "bogie frame", "w": "wheelset", "m": "motor"}
-_ENDS = {"1": "front ", "2": "rear "}
-_OUTPUTS = {
-    YAW_DISPLACEMENT: ("m", "mm", "displacement of each yaw damper with its joints"),
-    YAW_FORCE: ("N", "kN", "force of each of the two yaw dampers"),
-    PAIR_FORCE: ("N", "kN", "force of both yaw dampers together"),
-}
+SHOWN = {"m": "mm", "rad": "mrad", "N": "kN"}  # in which unit people like to see a signal
+NOMINAL = {"m": 1e-3, "rad": 1e-3, "m/s": 1e-2, "rad/s": 1e-2}  # size of a state
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,21 +64,27 @@ def variables(motion: EquationsOfMotion, values: Mapping[str, float]) -> list[Fm
     values : mapping
         Start values of the parameters in SI.
     """
-    known = [
-        *(_parameter(name, values[name]) for name in motion.parameters),
-        *(_input(name) for name in motion.inputs),
-        *_states(motion),
+    system, joints = motion.vehicle.state_space, motion.vehicle.model.joints
+    meanings = signal_meanings(system)
+    parameters = [_parameter(name, values[name], series=name in joints) for name in motion.parameters]
+    inputs = [
+        _signal(name, meanings[name], unit, "input", start=0.0)
+        for name, unit in zip(system.inputs, system.input_units, strict=True)
     ]
-    first = len(motion.parameters) + len(motion.inputs)
-    unknown = [
-        *(_derivative(state, first + i) for i, state in enumerate(known[first:])),
-        *(_output(name) for name in motion.outputs),
+    states = list(_states(system, meanings))
+    first = len(parameters) + len(inputs)
+    derivatives = [_derivative(state, first + i) for i, state in enumerate(states)]
+    outputs = [_signal(name, meanings[name], system.unit_of(name), "output") for name in motion.outputs]
+    again = [
+        replace(outputs[motion.outputs.index(name)], name=old, description=f"old name of {name}")
+        for old, name in motion.outputs.aliases.items()
     ]
     time = FmuVariable(name="time", description="time", causality="independent", unit="s")
-    return [*known, *unknown, time]
+    return [*parameters, *inputs, *states, *derivatives, *outputs, *again, time]
 
 
-def _parameter(name: str, value: float) -> FmuVariable:
+def _parameter(name: str, value: float, *, series: bool) -> FmuVariable:
+    """Return the variable of a parameter; `series`: it is the damping of a damper in series with its joints."""
     row: Parameter = SPEED if name == "v" else PARAMETERS[name]
     least, greatest = row.hard
     return FmuVariable(
@@ -92,85 +94,33 @@ def _parameter(name: str, value: float) -> FmuVariable:
         unit=row.si,
         shown=row.unit,
         start=float(value),
-        least=LEAST_DAMPING if name in IN_SERIES else least,
+        least=LEAST_DAMPING if series else least,
         greatest=greatest,
     )
 
 
-def _input(name: str) -> FmuVariable:
-    kind, end = name.rsplit("_", 1)
-    where = f"under the {_ENDS[end]}wheelset"
-    if kind == "alignment":
-        return FmuVariable(
-            name=name,
-            description=f"lateral position of the track's centre line {where}",
-            causality="input",
-            unit="m",
-            shown="mm",
-            start=0.0,
-        )
-    return FmuVariable(
-        name=name,
-        description=f"cross-level angle of the track {where}",
-        causality="input",
-        unit="rad",
-        shown="mrad",
-        start=0.0,
-    )
+def _signal(name: str, meaning: str, unit: str, causality: str, **more: Any) -> FmuVariable:
+    """Return the variable of an input, a state or an output of the state space."""
+    shown = SHOWN.get(unit, "")
+    return FmuVariable(name=name, description=meaning, causality=causality, unit=unit, shown=shown, **more)
 
 
-def _states(motion: EquationsOfMotion) -> Iterator[FmuVariable]:
-    moves = len(motion.states) - len(motion.dashpots)
-    for name in motion.states[:moves]:
-        coordinate = name.removesuffix("_velocity")
-        yield _coordinate(name) if name == coordinate else _velocity(coordinate)
-    for k, (name, damper) in enumerate(zip(motion.states[moves:], motion.dashpots, strict=True), 1):
-        text = f"stroke of the dashpot of the {_damper(damper)}, without its joints"
-        known = FmuVariable(
-            name=name, description=text, causality="local", unit="m", shown="mm", start=0.0, nominal=1e-3
-        )
-        yield replace(known, aliases=(f"z_{k}",))
-
-
-def _damper(name: str) -> str:
-    return f"{_ENDS[name[-1]]}{name[:-1].strip()}" if name[-1] in _ENDS else f"{name}s"
-
-
-def _velocity(name: str) -> FmuVariable:
-    """Return the variable of the velocity of a coordinate."""
-    x = _coordinate(name)
-    text, unit = f"rate of the {x.description}", f"{x.unit}/s"
-    x = replace(x, name=velocity(name), aliases=(f"v_{name}",))
-    return replace(x, description=text, unit=unit, shown="", nominal=1e-2)
-
-
-def _coordinate(name: str) -> FmuVariable:
-    kind, body = name.split("_")
-    unit, shown, text = _MOTION[kind]
-    description = f"{text} of the {_ENDS.get(body[1:], '')}{_BODIES[body[0]]}"
-    return FmuVariable(
-        name=name, description=description, causality="output", unit=unit, shown=shown, start=0.0, nominal=1e-3
-    )
+def _states(system: StateSpace, meanings: Mapping[str, str]) -> Iterator[FmuVariable]:
+    """Yield the states; coordinates and velocities are outputs as well."""
+    old = {name: alias for alias, name in system.states.aliases.items()}
+    for k, (name, unit) in enumerate(zip(system.states, system.state_units, strict=True)):
+        causality = "output" if k < 2 * len(system.coordinates) else "local"
+        aliases = (old[name],) if name in old else ()
+        yield _signal(name, meanings[name], unit, causality, start=0.0, nominal=NOMINAL[unit], aliases=aliases)
 
 
 def _derivative(state: FmuVariable, reference: int) -> FmuVariable:
-    rate = state.name.endswith("_velocity")
+    unit = rate_unit(state.unit.removesuffix("/s"), 2) if state.unit.endswith("/s") else rate_unit(state.unit)
     return FmuVariable(
         name=f"der({state.name})",
         description=f"time derivative of {state.name}",
         causality="local",
-        unit=state.unit.replace("/s", "/s²") if rate else f"{state.unit}/s",
+        unit=unit,
         derivative_of=reference,
         aliases=tuple(f"der({name})" for name in state.aliases),
     )
-
-
-def _output(name: str) -> FmuVariable:
-    new = OLD_OUTPUTS.get(name, name)
-    if new in _OUTPUTS:
-        unit, shown, text = _OUTPUTS[new]
-        text = text if new == name else f"old name of {new}"
-        return FmuVariable(name=name, description=text, causality="output", unit=unit, shown=shown)
-    x = _coordinate(name.removesuffix("_acceleration"))
-    text = x.description.replace("displacement", "acceleration").replace("yaw angle", "yaw acceleration")
-    return replace(x, name=name, description=text, unit=f"{x.unit}/s²", shown="", start=None, nominal=None)

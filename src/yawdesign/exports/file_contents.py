@@ -1,4 +1,4 @@
-"""What every kind of exported file is made of."""
+"""What every kind of exported file is written from."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -9,8 +9,8 @@ from yawdesign.problem import Problem
 
 
 @dataclass(frozen=True)
-class Parcel:
-    """Functions on their way into files.
+class FileContents:
+    """The functions of a problem with all that is written of them.
 
     Parameters
     ----------
