@@ -23,7 +23,7 @@ import yawdesign as yd
 from yawdesign.hunting.certificate import Certificate, certify
 from yawdesign.hunting.critical_damping import critical_damping
 from yawdesign.study.answers import evaluate
-from yawdesign.study.question import Question
+from yawdesign.study.request import Question
 from yawdesign.vehicle.vehicle import Model, Vehicle
 
 MODELS = (Model("power", "as-printed"), Model("power", "reciprocal"), Model("trailer", "reciprocal"))
@@ -94,7 +94,7 @@ def _counts(vehicle: Vehicle) -> np.ndarray:
 
 
 def _together(vehicle: Vehicle) -> Any:
-    return evaluate(Question("critical", vehicle.model.kind, vehicle.model.equations, (1.0,)), vehicle.p)
+    return evaluate(Question("critical", vehicle.model), vehicle.p)
 
 
 KINDS = {"wide": wide, "nearly undamped": undamped, "at a fold": folds}

@@ -21,11 +21,10 @@ from yawdesign.hunting.boundary import critical_damping as critical_function
 from yawdesign.hunting.boundary import parameter_names
 from yawdesign.hunting.certificate import certify
 from yawdesign.hunting.critical_damping import critical_damping
-from yawdesign.hunting.eigenvalues import motion_eigenvalues, state_matrix
-from yawdesign.hunting.many import compiled
-from yawdesign.hunting.many import counts as kernels
+from yawdesign.hunting.eigenvalues import MARGINS, motion_eigenvalues, state_matrix
+from yawdesign.hunting.many import compiled, counts
 from yawdesign.study.answers import evaluate
-from yawdesign.study.question import Question
+from yawdesign.study.request import Question
 from yawdesign.vehicle.polynomials import add, even_odd, multiply, scale, scale_variable
 from yawdesign.vehicle.vehicle import Model
 
@@ -39,7 +38,7 @@ def table1() -> dict[str, float]:
 
 
 def question(of: str) -> Question:
-    return Question(of, MODEL.kind, MODEL.equations, (SPEED,))
+    return Question(of, MODEL)
 
 
 def seconds(work: Callable[[], Any], repeat: int = 3) -> tuple[float, Any]:
@@ -68,12 +67,12 @@ def some(p: Mapping[str, Any], n: int) -> dict[str, Any]:
 def without_compiler(work: Callable[[], Any]) -> Any:
     """Run with plain NumPy: no compiler is found, and no tape has compiled code."""
     find, compiled._compiler = compiled._compiler, lambda: None
-    kernels.verdicts.cache_clear()
+    counts.verdicts.cache_clear()
     try:
         return work()
     finally:
         compiled._compiler = find
-        kernels.verdicts.cache_clear()
+        counts.verdicts.cache_clear()
 
 
 def verdicts(points: int) -> None:
@@ -201,6 +200,24 @@ def growth() -> None:
         )
 
 
+def margins_of_a_map(side: int) -> None:
+    """Compare margins by verdicts and Newton's method with those of stacked eigenvalues, in one thread each."""
+    C_s, conicity = np.meshgrid(np.geomspace(1e4, 1e7, side), np.linspace(0.05, 0.4, side), indexing="ij")
+    for model in (MODEL, Model()):
+        p = table1() | {"C_s": C_s.ravel(), "lambda": conicity.ravel()}
+        for of, measure in MARGINS.items():
+            asked = Question(of, model, variables=("C_s", "K_m", "C_m"))
+            evaluate(asked, p, threads=1)
+            own_time, own = seconds(lambda asked=asked, p=p: evaluate(asked, p, threads=1))
+            sample = np.arange(0, side**2, max(1, side**2 // 20_000))
+            vehicle = model.at({name: x[sample] if np.ndim(x) else x for name, x in p.items()})
+            eig_time, s = seconds(lambda vehicle=vehicle: motion_eigenvalues(vehicle, vehicle.coupled), 1)
+            error = np.max(np.abs(own.columns[of][sample] / measure(s) - 1))
+            per, other = own_time / side**2 * 1e6, eig_time / len(sample) * 1e6
+            line(f"{of} on {side} x {side}, {model.equations}", f"{per:.2f}", "stacked eigenvalues", f"{other:.1f}",
+                 f"{other / per:.0f}", f"to {error:.0e}, recomputed {own.recomputed.sum()}; {own_time:.1f} s")  # fmt: skip
+
+
 def gradient() -> None:
     p = table1()
     (x,) = critical_damping(MODEL.at(p)).critical
@@ -256,6 +273,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--points", type=int, default=1_000_000, help="random points of the verdicts")
     parser.add_argument("--exact", type=int, default=1000, help="points of the grid checked in exact rationals")
+    parser.add_argument("--side", type=int, default=755, help="points along each axis of the map of margins")
     parser.add_argument("--long", type=float, default=40.0, help="seconds of the work that is shared by processes")
     arguments = parser.parse_args()
     line("work", "us a point", "against", "us a point", "ratio", "agreement")
@@ -263,6 +281,7 @@ def main() -> None:
     verdicts(arguments.points)
     criticals(arguments.exact)
     growth()
+    margins_of_a_map(arguments.side)
     gradient()
     processes(arguments.long)
 

@@ -10,7 +10,7 @@ from yawdesign.hunting.certificate import certify
 from yawdesign.hunting.critical_damping import critical_damping
 from yawdesign.hunting.eigenvalues import motion_eigenvalues
 from yawdesign.hunting.many.critical_values import critical_field
-from yawdesign.hunting.many.parameter_sets import Block
+from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.routh import count_unstable
 from yawdesign.vehicle.vehicle import Model
 
@@ -104,7 +104,7 @@ def asked_both_ways(vehicle):
     """Return critical values and counts of the single question and of a sweep's, which must say they are checked."""
     one = critical_damping(vehicle)
     assert one.checked
-    field = critical_field(Block(vehicle.p, 1), kind=vehicle.model.kind, equations=vehicle.model.equations)
+    field = critical_field(ParameterSets(vehicle.model, vehicle.p, 1))
     assert not field.unverified.any()
     return [([x.C_s for x in one.critical], one.unstable_roots), (field.values_at(0)[0], field.counts_at(0))]
 

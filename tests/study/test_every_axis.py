@@ -12,8 +12,7 @@ from yawdesign.problem import ProblemError
 from yawdesign.study import executors as chunks
 from yawdesign.study import sweep as sweeps
 from yawdesign.study.axes import ROWS
-from yawdesign.study.question import QUANTITIES
-from yawdesign.study.request import request
+from yawdesign.study.request import QUANTITIES, request
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
 BOGIES = {

@@ -192,7 +192,7 @@ def test_results_are_readable_and_can_be_sent(chart, critical):
 
 
 def test_an_unverified_point_keeps_no_number(monkeypatch):
-    from yawdesign.study.question import Answers
+    from yawdesign.study.answers import Answers
 
     def doubtful(question, p, **_):
         values = np.array([1.0, 2.0, 3.0])

@@ -14,7 +14,7 @@ import numpy as np
 from yawdesign.hunting.boundary import polish
 from yawdesign.hunting.eigenvalues import backward_error, count_undamped, motion_eigenvalues
 from yawdesign.hunting.many.critical_values import CriticalField, critical_field, recomputed
-from yawdesign.hunting.many.parameter_sets import Block
+from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.vehicle.motions import Motion
 from yawdesign.vehicle.vehicle import Vehicle
@@ -86,10 +86,10 @@ def critical_damping(vehicle: Vehicle) -> CriticalDamping:
     vehicle : Vehicle
         Its numbers are floats; its own C_s is not looked at.
     """
-    model, block = {"kind": vehicle.model.kind, "equations": vehicle.model.equations}, Block(vehicle.p, 1)
-    field = critical_field(block, **model)
+    sets = ParameterSets(vehicle.model, vehicle.p, 1)
+    field = critical_field(sets)
     if not field.recomputed[0] and not _eigenvalues_agree(vehicle, field):
-        field = recomputed(field, block, [0], **model)
+        field = recomputed(field, sets, [0])
     found = [*zip(*field.values_at(0), strict=True)]
     if not field.recomputed[0]:
         found = polish(vehicle, found)
@@ -104,15 +104,15 @@ def critical_damping(vehicle: Vehicle) -> CriticalDamping:
 def _eigenvalues_agree(vehicle: Vehicle, field: CriticalField) -> bool:
     """Return whether the eigenvalues count as many unstable roots in every interval."""
     values, _ = field.values_at(0)
-    everywhere = vehicle.replace(C_s=np.array(_places(values, vehicle.p["K_ds"])))
+    everywhere = vehicle.replace(C_s=np.array(_places(values, vehicle.p[vehicle.model.joints["C_s"]])))
     found = count_undamped(motion_eigenvalues(everywhere, everywhere.coupled))
     return tuple(map(int, found)) == field.counts_at(0)
 
 
-def _places(values: Sequence[float], K_ds: float) -> list[float]:
+def _places(values: Sequence[float], stiffness: float) -> list[float]:
     """Return one damping in every interval; without critical values the one whose joint relaxes at 100 rad/s."""
     if not values:
-        return [K_ds / TIME_UNIT]
+        return [stiffness / TIME_UNIT]
     return [values[0] / 2, *(float(np.sqrt(a * b)) for a, b in pairwise(values)), 2 * values[-1]]
 
 

@@ -17,10 +17,16 @@ from yawdesign.vehicle.polynomials import Number, Polynomial, plus, scale_variab
 TIME_UNIT = 100.0  # rad/s; in this unit a bogie's coefficients span ten powers of ten instead of 46
 
 
-def _remainder(upper: Sequence[Any], lower: Sequence[Any]) -> list[Any]:
-    """Return quotient * lower - upper, where the linear quotient cancels the two highest powers (highest first)."""
+def quotient(upper: Sequence[Any], lower: Sequence[Any]) -> tuple[Any, Any]:
+    """Return both coefficients of the linear quotient that cancels the two highest powers (highest first)."""
     alpha = _divide(upper[0], lower[0])
-    beta = _divide(plus(upper[1], times(-1, times(alpha, lower[1] if len(lower) > 1 else 0))), lower[0])
+    second = plus(upper[1], times(-1, times(alpha, lower[1] if len(lower) > 1 else 0)))
+    return alpha, _divide(second, lower[0])
+
+
+def _remainder(upper: Sequence[Any], lower: Sequence[Any]) -> list[Any]:
+    """Return quotient * lower - upper (highest power first)."""
+    alpha, beta = quotient(upper, lower)
     out = []
     for k in range(2, len(upper)):
         linear = times(alpha, lower[k]) if k < len(lower) else 0
@@ -94,13 +100,27 @@ def sector_column(p: Polynomial, zeta: Number, functions: Any = np) -> list[Any]
     zeta : float or array
         Damping ratio, 0 <= zeta < 1 (a sector wider than the half-plane has no edge of this kind).
     functions : module
-        Where `arcsin`, `cos` and `sin` of zeta are: `numpy`, or `casadi` for SX.
+        Where `sqrt` of zeta is: `numpy`, or `casadi` for SX.
     """
-    # Coefficient of z^(n-k) in p(z e^(j asin zeta)), divided by the turn of z^n and by j^k.
-    angle = functions.arcsin(zeta) + math.pi / 2
-    upper = [times(functions.cos(k * angle), a) for k, a in enumerate(p[::-1])]
-    lower = [times(functions.sin(k * angle), a) for k, a in enumerate(p[::-1])]
-    return [row[0] for row in _rows(upper, lower[1:])]
+    return [row[0] for row in sector_rows(p, -zeta, functions.sqrt(1 - zeta * zeta))]
+
+
+def sector_rows(p: Polynomial, cosine: Number, sine: Number) -> list[list[Any]]:
+    """Return Routh's array for the complex coefficients of p turned by an angle less 90 degrees, given by its cosine.
+
+    It counts the roots right of a line through zero whose upper half stands at that angle: with the cosine -zeta those
+    of an upper half-plane with less damping than zeta, and their conjugates with less than -zeta.
+    """
+    # Coefficient of z^(n-k) in the turned p, divided by the turn of z^n and by j^k: multiples of the angle.
+    upper, lower, cosines, sines = [], [], 1, 0
+    for a in p[::-1]:
+        upper.append(times(cosines, a))
+        lower.append(times(sines, a))
+        cosines, sines = (
+            plus(times(cosines, cosine), times(-1, times(sines, sine))),
+            plus(times(sines, cosine), times(cosines, sine)),
+        )
+    return _rows(upper, lower[1:])
 
 
 def is_stable(column: Sequence[Any]) -> NDArray[np.bool_]:

@@ -102,8 +102,7 @@ def _limits(sweep: Sweep, ax: "Axes") -> tuple[float, float]:
     factor = to_unit(1.0, shown_unit(sweep))
     found = sweep.main[np.isfinite(sweep.main)] * factor
     if sweep.quantity == "critical_speed":
-        speeds = sweep.request.task.question.speeds
-        low, high = speeds[0] * factor, speeds[-1] * factor
+        low, high = (v * factor for v in sweep.request.task.question.searched)
     elif not found.size:
         low, high = 0.0, 1000.0
     elif found.max() > WIDE * found.min():

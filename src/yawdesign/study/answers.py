@@ -1,26 +1,46 @@
-"""Answers at many points: the fast way, checked, and the thorough way where a check fails."""
+"""Answers at many points: the quick way, checked, and the single route where a check fails."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.damper.curving import curving_limit, rotational_resistance
-from yawdesign.hunting.arrays import Bools
-from yawdesign.hunting.many import counts as kernels
-from yawdesign.hunting.many.critical_values import CriticalField, critical_field
-from yawdesign.hunting.many.parameter_sets import Block
-from yawdesign.study import thorough
-from yawdesign.study.choice import choose
-from yawdesign.study.margins import margins
-from yawdesign.study.question import Answers, Question
-from yawdesign.study.speeds import critical_speeds
+from yawdesign.damper.decision import UNVERIFIED, decide
+from yawdesign.hunting.arrays import Array, Bools
+from yawdesign.hunting.many import margins
+from yawdesign.hunting.many.critical_speeds import critical_speeds
+from yawdesign.hunting.many.critical_values import critical_field
+from yawdesign.hunting.many.parameter_sets import ParameterSets
+from yawdesign.hunting.verdict import stability_at
+from yawdesign.study.request import Question
 
 LENGTH = 16384  # points that one thread looks at
 VERDICTS = 32768  # the same for verdicts, which need less memory a point
+
+
+@dataclass(frozen=True)
+class Answers:
+    """Answers for some points.
+
+    Parameters
+    ----------
+    columns : mapping name -> array
+        The first axis runs over the points. What does not exist is NaN; where there are several values (critical
+        values), they are in rising order, filled up with NaN.
+    recomputed : array of bool
+        Points that failed a check of the quick way and were computed by the single route.
+    unverified : array of bool
+        Points at which the two counts of the single route differ: their answer is no verdict.
+    """
+
+    columns: Mapping[str, Array]
+    recomputed: Bools
+    unverified: Bools
 
 
 def evaluate(question: Question, p: Mapping[str, Any], *, threads: int | None = None) -> Answers:
@@ -31,8 +51,8 @@ def evaluate(question: Question, p: Mapping[str, Any], *, threads: int | None = 
     question : Question
         What is asked.
     p : mapping
-        Symbols of Table I in SI units, ``C_s`` where the question needs it and ``v`` where it is an axis: numbers, or
-        arrays of one common length.
+        Symbols of Table I in SI units, ``C_s`` where the question needs it and ``v`` where no condition gives it:
+        numbers, or arrays of one common length.
     threads : int, optional
         How many threads share the points; one for every core if not given.
 
@@ -40,52 +60,62 @@ def evaluate(question: Question, p: Mapping[str, Any], *, threads: int | None = 
     -------
     Answers
     """
-    blocks = list(Block.split(p, VERDICTS if question.of == "stable" else LENGTH))
-    workers = min(threads or os.cpu_count() or 1, len(blocks))
+    parts = list(ParameterSets.split(question.model, p, VERDICTS if question.of == "stable" else LENGTH))
+    workers = min(threads or os.cpu_count() or 1, len(parts))
     if workers == 1:
-        return _joined([_answer(question, block) for block in blocks])
+        return _joined([_answer(question, part) for part in parts])
     with ThreadPoolExecutor(workers) as pool:
-        return _joined(list(pool.map(lambda block: _answer(question, block), blocks)))
+        return _joined(list(pool.map(lambda part: _answer(question, part), parts)))
 
 
-def _answer(question: Question, block: Block) -> Answers:
+def _answer(question: Question, sets: ParameterSets) -> Answers:
     match question.of:
         case "stable":
-            return _verdicts(question, block)
+            return _verdicts(question, sets)
         case "decay_rate" | "damping_ratio":
-            values, passed = margins(question, block)
-            return _mended(question, block, values, ~passed)
+            return _margins(question, sets)
         case "critical":
-            return _critical(question, block)
+            return _critical(question, sets)
         case "critical_speed":
-            return critical_speeds(question, block)
-    return _design(question, block)
+            return _critical_speeds(question, sets)
+    return _design(question, sets)
 
 
-def _verdicts(question: Question, block: Block) -> Answers:
-    stable, sure = np.ones((2, block.size), dtype=bool)
-    for case in block.cases(question.speeds):
-        verdict = kernels.verdicts(question.kind, question.equations, case.zeros)(case.values)
-        stable &= verdict[0] > 0
-        sure &= verdict[1] > 0
-    return _mended(question, block, stable, ~sure)
+def _cases(question: Question, sets: ParameterSets) -> list[ParameterSets]:
+    return [sets.under(condition) for condition in question.conditions]
 
 
-def _mended(question: Question, block: Block, values: NDArray[Any], doubtful: Bools) -> Answers:
-    """Return the values, the doubtful ones computed the thorough way."""
+def _verdicts(question: Question, sets: ParameterSets) -> Answers:
+    stable, sure = _everywhere(margins.stable(case) for case in _cases(question, sets))
+    return _mended(question, sets, "stable", stable, ~sure)
+
+
+def _everywhere(verdicts: Iterable[tuple[Bools, Bools]]) -> tuple[Bools, Bools]:
+    """Return whether verdicts and whether their sureness hold under every condition."""
+    yes, sure = zip(*verdicts, strict=True)
+    return np.all(yes, axis=0), np.all(sure, axis=0)
+
+
+def _margins(question: Question, sets: ParameterSets) -> Answers:
+    found = [margins.margins(case, question.of, question.variables) for case in _cases(question, sets)]
+    worst, passed = np.min([value for value, _ in found], axis=0), np.all([passed for _, passed in found], axis=0)
+    return _mended(question, sets, question.of, worst, ~passed)
+
+
+def _mended(question: Question, sets: ParameterSets, of: str, values: NDArray[Any], doubtful: Bools) -> Answers:
+    """Return the verdicts or margins, the doubtful ones by the single route."""
     unverified = np.zeros_like(doubtful)
     for k in np.flatnonzero(doubtful):
-        values[k], checked = thorough.margin(question, block.point(k))
-        unverified[k] = not checked
-    return Answers({question.of: values}, doubtful, unverified)
+        vehicle = sets.vehicle_at(k)
+        found = [stability_at(vehicle.under(condition), question.variables) for condition in question.conditions]
+        values[k] = min(getattr(x, of) for x in found)
+        unverified[k] = not all(x.checked for x in found)
+    return Answers({of: values}, doubtful, unverified)
 
 
-def _field(question: Question, case: Block) -> CriticalField:
-    return critical_field(case, kind=question.kind, equations=question.equations)
-
-
-def _critical(question: Question, block: Block) -> Answers:
-    field = _field(question, block.cases(question.speeds)[0])
+def _critical(question: Question, sets: ParameterSets) -> Answers:
+    (case,) = _cases(question, sets)
+    field = critical_field(case)
     columns = {
         "critical": field.critical,
         "omega": field.omega,
@@ -95,42 +125,51 @@ def _critical(question: Question, block: Block) -> Answers:
     return Answers(columns, field.recomputed, field.unverified)
 
 
-def _design(question: Question, block: Block) -> Answers:
-    fields = [_field(question, case) for case in block.cases(question.speeds)]
+def _critical_speeds(question: Question, sets: ParameterSets) -> Answers:
+    (case,) = _cases(question, sets)
+    field = critical_speeds(case, question.searched)
+    columns = {
+        "critical_speed": field.critical,
+        "omega": field.omega,
+        "unstable_roots": field.unstable_roots,
+        "count": field.count,
+    }
+    return Answers(columns, field.recomputed, field.unverified)
+
+
+def _design(question: Question, sets: ParameterSets) -> Answers:
+    cases = _cases(question, sets)
+    fields = [critical_field(case) for case in cases]
     recomputed = np.any([x.recomputed for x in fields], axis=0)
     unverified = np.any([x.unverified for x in fields], axis=0)
-    p, curve = block.values, question.curve
-    upper = np.full(block.size, np.inf if curve is None else curving_limit(p, curve))
-    choice = choose(fields, upper, _damped(question, block))
-    status = np.where(unverified, "unverified", choice.status)
-    C_sl = np.where(unverified, np.nan, choice.C_sl)
+    others_stable, sure = _everywhere(margins.others_stable(case) for case in cases)
+    unverified |= ~sure
+    curve, upper = question.curve, np.full(sets.size, np.inf)
+    if curve is not None:
+        upper = np.full(sets.size, curving_limit(sets.values, curve))
+    decision = decide([(x.critical, x.unstable_roots) for x in fields], upper, others_stable)
+    status = np.where(unverified, UNVERIFIED, decision.status)
+    C_sl = np.where(unverified, np.nan, decision.C_sl)
     if question.of == "C_sl":
         return Answers({"C_sl": C_sl, "status": status}, recomputed, unverified)
-    C_s = np.where(unverified, np.nan, choice.C_s)
+    C_s = np.where(unverified, np.nan, decision.C_s)
     columns = {"C_s": C_s, "C_sl": C_sl, "C_su": np.where(np.isinf(upper), np.nan, upper), "status": status}
     if curve is not None:
         with np.errstate(all="ignore"):
-            columns["rotational_resistance"] = np.full(block.size, rotational_resistance({**p, "C_s": C_s}, C_s, curve))
-    return _confirmed(question, block, Answers(columns, recomputed, unverified))
+            p = {**sets.values, "C_s": C_s}
+            columns["rotational_resistance"] = np.full(sets.size, rotational_resistance(p, C_s, curve))
+    return _confirmed(question, sets, Answers(columns, recomputed, unverified))
 
 
-def _confirmed(question: Question, block: Block, answers: Answers) -> Answers:
+def _confirmed(question: Question, sets: ParameterSets, answers: Answers) -> Answers:
     """Return a design with the verdicts on its C_s: a design that is not stable by them is no design."""
     C_s = answers.columns["C_s"]
     chosen = ~np.isnan(C_s)
-    asked = Question("stable", question.kind, question.equations, question.speeds)
-    verdicts = _verdicts(asked, block.with_values(C_s=np.where(chosen, C_s, 1.0)))
+    verdicts = _verdicts(question, sets.replace(C_s=np.where(chosen, C_s, 1.0)))
     confirmed = np.asarray(verdicts.columns["stable"], dtype=bool)
     stable = confirmed & chosen
     unverified = answers.unverified | (chosen & (verdicts.unverified | ~confirmed))
     return Answers({**answers.columns, "stable": stable}, answers.recomputed, unverified)
-
-
-def _damped(question: Question, block: Block) -> Bools:
-    """Return whether the motions of their own are damped: their stiffness and their damping positive."""
-    tape, names = kernels.decoupled(question.kind, question.equations, block.zeros)
-    values = tape({**block.values, "v": 1.0}) if names else np.ones((1, 1))
-    return np.broadcast_to((values > 0).all(axis=0), block.size)
 
 
 def _joined(parts: Sequence[Answers]) -> Answers:

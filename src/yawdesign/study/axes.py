@@ -9,6 +9,7 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.problem import PARAMETERS, Parameter, ProblemError, format_quantity
+from yawdesign.problem.conditions import Condition
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_count, check_ends
@@ -49,7 +50,6 @@ DERIVED = {
 }
 # Everything that can be an axis.
 ROWS: Mapping[str, Parameter] = {**PARAMETERS, "v": replace(SPEED, key="v"), **DERIVED}
-CREEP = ("f_11", "f_22")
 
 
 @dataclass(frozen=True, eq=False)
@@ -215,9 +215,7 @@ def applied(p: Mapping[str, float], point: Mapping[str, Any], hold: str = "C_m")
     >>> {name: round(x) for name, x in applied(p, {"f_m": 3.0, "xi_m": 0.3}).items()}
     {'M_m': 1765, 'K_m': 627115, 'C_m': 19962}
     """
-    out = {**p, **{name: x for name, x in point.items() if name not in DERIVED}}
-    if "creep_factor" in point:
-        out |= {name: p[name] * point["creep_factor"] for name in CREEP}
+    out = Condition(tuple((name, x) for name, x in point.items() if name not in ("f_m", "xi_m"))).applied(p)
     if "f_m" in point:
         out["K_m"] = out["M_m"] * (2 * pi * point["f_m"]) ** 2
     ratio = damping_ratio(p) if hold == "xi_m" else point.get("xi_m")

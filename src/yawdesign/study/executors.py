@@ -11,9 +11,8 @@ from typing import Any
 
 from yawdesign.problem import ProblemError
 from yawdesign.problem.stopping import held, let_through
-from yawdesign.study.answers import LENGTH, VERDICTS, evaluate
+from yawdesign.study.answers import LENGTH, VERDICTS, Answers, evaluate
 from yawdesign.study.axes import applied, block
-from yawdesign.study.question import Answers
 from yawdesign.study.request import Request, Task
 from yawdesign.study.store import Store
 

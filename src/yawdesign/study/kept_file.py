@@ -18,8 +18,7 @@ from yawdesign.problem import ProblemError
 from yawdesign.problem.result import plain
 from yawdesign.problem.stopping import held
 from yawdesign.problem.whole_files import whole_file
-from yawdesign.study.question import UNITS
-from yawdesign.study.request import Request, memory
+from yawdesign.study.request import UNITS, Request, memory
 from yawdesign.study.store import MASKS, Store
 
 DIGEST = 64  # characters of a SHA-256 of all before it, which end the file as the comment of the archive

@@ -19,7 +19,7 @@ from yawdesign.problem import ProblemError
 from yawdesign.problem.result import Result, plain
 from yawdesign.problem.whole_files import refuse_existing, whole_file, write_whole
 from yawdesign.study.axes import ROWS, Axis, block
-from yawdesign.study.question import UNITS
+from yawdesign.study.request import UNITS
 from yawdesign.study.store import MASKS, write_arrays
 
 if TYPE_CHECKING:

@@ -1,20 +1,41 @@
 """What a sweep is asked for, checked: the quantity, the axes and what they hold, with all mistakes at once."""
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from math import prod
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
-from yawdesign.problem import PARAMETERS, Problem, ProblemError
+from yawdesign.problem import PARAMETERS, Curve, Problem, ProblemError
+from yawdesign.problem.conditions import CREEP, Condition, conditions, distinct
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.parameters import MOTOR_KEYS, NO_MOTOR, parameter_keys
 from yawdesign.problem.running import SpeedRange
 from yawdesign.problem.table import as_choice, key_of
-from yawdesign.study.axes import CREEP, DERIVED, ROWS, Axis, applied, read_axis, shape
-from yawdesign.study.question import NEEDS_DAMPING, QUANTITIES, Question
+from yawdesign.study.axes import DERIVED, ROWS, Axis, applied, read_axis, shape
+from yawdesign.vehicle.vehicle import Model
+
+# What can be asked, and the unit of its answer.
+QUANTITIES = {
+    "stable": "-",
+    "decay_rate": "1/s",
+    "damping_ratio": "-",
+    "critical": "N·s/m",
+    "C_sl": "N·s/m",
+    "design": "N·s/m",
+    "critical_speed": "m/s",
+}
+# The same for everything that stands in a column of its own.
+UNITS = {
+    **QUANTITIES,
+    **{"C_s": "N·s/m", "C_su": "N·s/m", "omega": "rad/s"},
+    **dict.fromkeys(("count", "unstable_roots", "status", "rotational_resistance"), "-"),
+}
+# What must be known at every point, beside the parameters.
+NEEDS_DAMPING = ("stable", "decay_rate", "damping_ratio", "critical_speed")
+SEARCHED = (10 / 3.6, 600 / 3.6)  # for critical speeds, where the problem gives no range [m/s]
 
 MOST_AXES = 3
 HOLDS = ("C_m", "xi_m")
@@ -25,6 +46,48 @@ BYTES = {"stable": 16, "decay_rate": 32, "damping_ratio": 32, "C_sl": 160, "desi
 BYTES_OF_SETS = 240
 SHARE_OF_MEMORY = 0.5
 COMMON_MEMORY = 8 * 2**30  # where the system does not tell
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked at every point; plain data, so that it can be sent to other processes.
+
+    Parameters
+    ----------
+    of : str
+        One of `QUANTITIES`.
+    model : Model
+        Which equations.
+    conditions : tuple of Condition
+        The answer holds for all of them. What an axis gives is not among them; of a critical speed, the speed neither.
+    searched : tuple of float
+        Between which speeds [m/s] critical ones are looked for.
+    variables : tuple of str
+        Design variables; they decide which decoupled modes count in the margins.
+    curve : Curve, optional
+        Upper limit of the yaw damping.
+    """
+
+    of: str
+    model: Model
+    conditions: tuple[Condition, ...] = (Condition(()),)
+    searched: tuple[float, float] = SEARCHED
+    variables: tuple[str, ...] = ()
+    curve: Curve | None = None
+
+    @classmethod
+    def about(cls, problem: Problem, of: str, given: Collection[str] = ()) -> Self:
+        """Return the question that a problem asks, where axes give the values of some names."""
+        replaced = {*given, "v"} if of == "critical_speed" else given
+        speeds = problem.speeds
+        return cls(
+            of,
+            Model.of(problem),
+            distinct(conditions(problem), replaced),
+            searched=SEARCHED if len(speeds) == 1 else (float(speeds[0]), float(speeds[-1])),
+            variables=tuple(problem.design.variables),
+            curve=problem.curve,
+        )
 
 
 @dataclass(frozen=True)
@@ -74,7 +137,8 @@ class Request:
 
     def about(self, of: str, axes: tuple[Axis, ...]) -> "Request":
         """Return the same request about another quantity, over some of its axes; what is held stays held."""
-        task = replace(self.task, question=Question.about(self.problem, of), parameters=_parameters(self.problem, of))
+        question = Question.about(self.problem, of, [axis.name for axis in axes])
+        task = replace(self.task, question=question, parameters=_parameters(self.problem, of))
         return replace(self, of=of, task=task, axes=axes)
 
 
@@ -92,7 +156,7 @@ def request(problem: Problem, of: str, axes: Iterable[tuple[str, Any]], hold: st
         _check_hold(problem, hold, names)
     mistakes.found += _contradictions(names).found + _unanswerable(problem, quantity, names).found
     mistakes.report()
-    task = Task(Question.about(problem, quantity), _parameters(problem, quantity), hold or "C_m")
+    task = Task(Question.about(problem, quantity, names), _parameters(problem, quantity), hold or "C_m")
     _check_derived(task, read)
     _check_memory(quantity, read)
     return Request(problem, of, task, read)

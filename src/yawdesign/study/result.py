@@ -19,8 +19,7 @@ from yawdesign.problem.table import field_name
 from yawdesign.study.axes import shape
 from yawdesign.study.kept_file import KeptFile
 from yawdesign.study.labelled_data import MAIN, LabelledData
-from yawdesign.study.question import QUANTITIES, UNITS
-from yawdesign.study.request import Request
+from yawdesign.study.request import QUANTITIES, UNITS, Request
 from yawdesign.study.store import MASKS, Store
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from yawdesign.hunting.arrays import Array
 from yawdesign.problem.stopping import held
 from yawdesign.problem.whole_files import whole_file
-from yawdesign.study.question import Answers
+from yawdesign.study.answers import Answers
 
 MASKS = ("finished", "recomputed", "unverified")
 

@@ -14,14 +14,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from yawdesign.hunting.arrays import Bools, Float, Index
+from yawdesign.hunting.arrays import Array, Bools, Float, Index
 from yawdesign.hunting.exact import ExactValues, NotDecidedError, exact_critical_values
-from yawdesign.hunting.many import counts as kernels
-from yawdesign.hunting.many.parameter_sets import Block
+from yawdesign.hunting.many import counts
+from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.many.root_isolation import isolate
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.vehicle.polynomials import even_odd
-from yawdesign.vehicle.vehicle import Model
+from yawdesign.vehicle.vehicle import Vehicle
 
 ACCURATE = 5e-9  # largest relative error of a critical value that rounding may cause
 ROUNDING = 2e-15  # of the coefficients
@@ -64,26 +64,22 @@ class CriticalField:
         return tuple(int(count) for count in row[~np.isnan(row)])
 
 
-def critical_field(block: Block, *, kind: str, equations: str) -> CriticalField:
-    """Return the critical values at many points, computed with many digits where double precision does not decide.
+def critical_field(sets: ParameterSets) -> CriticalField:
+    """Return the critical values of many vehicles, computed with many digits where double precision does not decide.
 
     Parameters
     ----------
-    block : Block
-        The points, with ``v``.
-    kind, equations : str
-        As in `yawdesign.vehicle.catalogue.bogie`.
+    sets : ParameterSets
+        With ``v``; their own ``C_s`` is not looked at.
     """
-    field, passed = in_double_precision(block, kind=kind, equations=equations)
+    field, passed = in_double_precision(sets)
     failed = np.flatnonzero(~passed)
-    return recomputed(field, block, failed, kind=kind, equations=equations) if len(failed) else field
+    return recomputed(field, sets, failed) if len(failed) else field
 
 
-def recomputed(
-    field: CriticalField, block: Block, points: Iterable[int], *, kind: str, equations: str
-) -> CriticalField:
+def recomputed(field: CriticalField, sets: ParameterSets, points: Iterable[int]) -> CriticalField:
     """Return the field with some of its points computed with many digits."""
-    found = {k: _exact(block.point(k), kind=kind, equations=equations) for k in points}
+    found = {k: _exact(sets.vehicle_at(k)) for k in points}
     least = max(field.critical.shape[1], *(len(x.critical) for x in found.values() if x), 0)
     critical, omega = (_widened(x, least) for x in (field.critical, field.omega))
     unstable = _widened(field.unstable_roots, least + 1)
@@ -97,9 +93,9 @@ def recomputed(
     return CriticalField(critical, omega, unstable, done, open_)
 
 
-def _exact(p: dict[str, float], *, kind: str, equations: str) -> ExactValues | None:
+def _exact(vehicle: Vehicle) -> ExactValues | None:
     try:
-        return exact_critical_values(Model(kind, equations).at(p))
+        return exact_critical_values(vehicle)
     except NotDecidedError:
         return None
 
@@ -156,18 +152,16 @@ class _Crossings(NamedTuple):
     error: Float
 
 
-def in_double_precision(block: Block, *, kind: str, equations: str) -> tuple[CriticalField, Bools]:
-    """Return the critical values at many points, and whether double precision decides them.
+def in_double_precision(sets: ParameterSets) -> tuple[CriticalField, Bools]:
+    """Return the critical values of many vehicles, and whether double precision decides them.
 
     Parameters
     ----------
-    block : Block
-        The points, with ``v``.
-    kind, equations : str
-        As in `yawdesign.vehicle.catalogue.bogie`.
+    sets : ParameterSets
+        With ``v``.
     """
-    tape, (na, nb, _) = kernels.boundaries(kind, equations, block.zeros - {"C_s"})
-    results = tape(block.values)
+    tape, (na, nb, _) = counts.boundaries(sets.model, sets.zeros - {"C_s"})
+    results = tape(sets.values)
     A, B, F = results[:na], results[na : na + nb], results[na + nb :]
     n = results.shape[1]
     with np.errstate(all="ignore"):  # what overflows has no certain sign or no small error, and fails
@@ -176,7 +170,7 @@ def in_double_precision(block: Block, *, kind: str, equations: str) -> tuple[Cri
         found = _crossings(A, B, isolated.owner, x)
     rows = Rows(found.owner, found.C_s, n)
     critical, omega, direction, error = map(rows.spread, found[1:])
-    unstable, doubtful = _counted(A, B, critical, block.values["K_ds"])
+    unstable, doubtful = _counted(A, B, critical, sets.values[sets.model.joints["C_s"]])
     known = ~np.isnan(critical)
     steps = np.diff(unstable, axis=1)
     with np.errstate(invalid="ignore"):
@@ -193,7 +187,7 @@ def _crossings(A: Float, B: Float, owner: Index, x: Float) -> _Crossings:
     keep = np.flatnonzero((C_s > 0) & np.isfinite(C_s))
     parts = parts.of(keep)
     owner, x, before = owner[keep], x[keep], C_s[keep]
-    (ea, oa, eb, ob), (dea, doa, deb, dob) = zip(*(_value_and_slope(part, x) for part in parts), strict=True)
+    (ea, oa, eb, ob), (dea, doa, deb, dob) = zip(*(value_and_slope(part, x) for part in parts), strict=True)
     # One step on A and B themselves: the product of both has lost digits that they have.
     x = x - (eb * oa - ea * ob) / (deb * oa + eb * doa - dea * ob - ea * dob)
     ea, oa, eb, ob = (_value(part, x) for part in parts)
@@ -225,7 +219,7 @@ def _refined(F: Float, low: Float, high: Float) -> Float:
     root = _middle(low, high)
     active, x = np.arange(len(root)), root
     for _ in range(ITERATIONS):
-        value, slope = _value_and_slope(F, x)
+        value, slope = value_and_slope(F, x)
         below = (value < 0) == rising
         low, high = np.where(below, x, low), np.where(below, high, x)
         new = x - value / slope
@@ -253,8 +247,9 @@ def _value(p: Float, x: Float) -> Float:
     return value
 
 
-def _value_and_slope(p: Float, x: Float) -> tuple[Float, Float]:
-    value, slope = p[-1].copy(), np.zeros_like(x)
+def value_and_slope(p: Float, x: Array) -> tuple[Array, Array]:
+    """Return values and derivatives of many polynomials, lowest power first, each at a real or complex place."""
+    value, slope = p[-1].astype(x.dtype), np.zeros_like(x)
     for a in p[-2::-1]:
         slope *= x
         slope += value
@@ -289,11 +284,11 @@ class Rows:
         return out
 
 
-def _counted(A: Float, B: Float, critical: Float, K_ds: Any) -> tuple[Float, Bools]:
+def _counted(A: Float, B: Float, critical: Float, stiffness: Any) -> tuple[Float, Bools]:
     """Return the number of unstable roots in every interval of C_s, and where a count is doubtful."""
     n, m = critical.shape
     C_s = np.full((n, m + 1), np.nan)
-    joint = np.broadcast_to(K_ds, n) / TIME_UNIT
+    joint = np.broadcast_to(stiffness, n) / TIME_UNIT
     # Each value's upper neighbour; beyond the last one infinity.
     upper = np.concatenate([critical[:, 1:], np.full((n, 1), np.nan)], axis=1)[:, :m]
     C_s[:, 1:] = np.where(np.isnan(upper), FAR * joint[:, None], np.sqrt(critical) * np.sqrt(upper))
@@ -304,7 +299,7 @@ def _counted(A: Float, B: Float, critical: Float, K_ds: Any) -> tuple[Float, Boo
     core = np.zeros((size, len(row)))
     core[: len(A)] += np.take(A, row, axis=1)
     core[: len(B)] += C_s[row, column] * np.take(B, row, axis=1)
-    count, doubts = kernels.counts(size)({f"a{k}": core[k] for k in range(size)})
+    count, doubts = counts.counts(size)({f"a{k}": core[k] for k in range(size)})
     unstable = np.full((n, m + 1), np.nan)
     unstable[row, column] = count
     doubtful = np.zeros(n, dtype=bool)
