@@ -11,7 +11,7 @@ import yawdesign as yd
 from yawdesign.problem.running import CURVE
 from yawdesign.problem.units import UnitError, parse_unit
 from yawdesign.study.axes import ROWS
-from yawdesign.study.question import UNITS
+from yawdesign.study.request import UNITS
 from yawdesign.vehicle.vehicle import Model
 
 NUMBER = re.compile(r"float|complex|ndarray")
