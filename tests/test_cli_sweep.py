@@ -247,14 +247,14 @@ def whole_sweep(name):
 @pytest.mark.parametrize(
     ("where", "name"),
     [
-        ("yawdesign.study.labelled_data", "_rows"),
+        ("yawdesign.study.labelled_data", "LabelledData._lines"),
         ("yawdesign.study.store", "write_arrays"),
         ("yawdesign.study.kept_file", "_write"),
         ("yawdesign.study.sweep", "gathered"),
         ("yawdesign.study.sweep", "_boundary"),
         ("yawdesign.output.sweep_files", "draw"),
-        ("yawdesign.output.plots", "write_whole"),
-        ("yawdesign.cli", "_show_sweep"),
+        ("yawdesign.output.pictures", "write_whole"),
+        ("yawdesign.cli.sweeps", "show"),
         ("numpy", "savez_compressed"),
         ("numpy.lib.format", "write_array"),
         ("zipfile", "ZipFile.close"),

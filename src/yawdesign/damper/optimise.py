@@ -10,13 +10,14 @@ from yawdesign.damper.curving import excess, rotational_resistance
 from yawdesign.damper.design_space import Space, fraction, scale
 from yawdesign.damper.forward import REMEDIES, UNDAMPED, ForwardDesign, design, factors_damped
 from yawdesign.damper.nlp import improve
-from yawdesign.damper.search import Progress, refine, search
+from yawdesign.damper.search import refine, search
 from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.hurwitz import hurwitz_minors
 from yawdesign.hunting.old import stability_at
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.hunting.verdict import Mode, Stability
 from yawdesign.problem import Curve, Problem, ProblemError
+from yawdesign.problem.arguments import Progress
 from yawdesign.problem.table import as_seed
 from yawdesign.vehicle.old import paper_coefficients
 from yawdesign.vehicle.polynomials import trim

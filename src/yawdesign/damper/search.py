@@ -5,7 +5,7 @@ optima. A verdict "is the margin above this level" by Routh's array costs about 
 two hundred; so all points get a verdict against the best margin of their own cell, and few get a margin.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Self
 
@@ -15,6 +15,7 @@ from scipy.stats import qmc
 
 from yawdesign.damper.design_space import Space
 from yawdesign.hunting.arrays import Float
+from yawdesign.problem.arguments import Progress
 
 BLOCK = 20_000  # points at once: enough to hide Python's overhead, few enough for any memory
 CELLS = 6  # cells per axis in up to three variables, each with a best point of its own; in all about 6^3
@@ -22,8 +23,6 @@ STARTS = 20  # cells that are refined, in up to three variables; in more of them
 OTHERS = 4900  # points in the variables other than C_s
 LINE = 72  # points along C_s
 MOST_SPLIT = 9  # variables whose axes are divided into cells: their number doubles with each
-
-Progress = Callable[[str, float], None]
 
 
 @dataclass

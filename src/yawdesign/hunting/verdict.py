@@ -109,10 +109,15 @@ def stability(problem: Problem) -> Stability:
     >>> round(yd.stability(yd.table1(equations="as-printed")).spectral_abscissa, 8)
     -1.29853702
     """
+    return least_stable(problem)[1]
+
+
+def least_stable(problem: Problem) -> tuple[Vehicle, Stability]:
+    """Return a problem's vehicle at the speed of the least decay rate, and its stability. As in `stability`."""
     given_damping(problem)
     variables = problem.design.variables
-    results = [stability_at(vehicle, variables) for vehicle in Vehicle.of(problem)]
-    return min(results, key=lambda result: (result.stable, result.decay_rate))
+    results = [(vehicle, stability_at(vehicle, variables)) for vehicle in Vehicle.of(problem)]
+    return min(results, key=lambda result: (result[1].stable, result[1].decay_rate))
 
 
 def stability_at(vehicle: Vehicle, variables: Collection[str] = ()) -> Stability:

@@ -8,8 +8,9 @@ from typing import Any, Self
 from yawdesign.problem import Problem
 from yawdesign.problem.conditions import Condition, conditions
 from yawdesign.problem.parameters import parameter_keys
+from yawdesign.problem.table import key_of
 from yawdesign.vehicle.catalogue import CATALOGUE, Parameters
-from yawdesign.vehicle.elements import Element, Link, Single, folded, physical
+from yawdesign.vehicle.elements import Element, Link, Mass, Single, folded, physical
 from yawdesign.vehicle.motions import Motion, motions
 from yawdesign.vehicle.polynomials import Number, Polynomial, product, scale_variable
 from yawdesign.vehicle.state_space import StateSpace
@@ -45,6 +46,11 @@ class Model:
         return (*parameter_keys(self.kind), "v")
 
     @property
+    def motions(self) -> tuple[Motion, ...]:
+        """The motions of its vehicles: their names and coordinates, and which parameters they are made of."""
+        return _traced(self).motions
+
+    @property
     def sources(self) -> Mapping[str, frozenset[str]]:
         """By the name of each motion, on which parameters it depends; C_s is not one of them."""
         return _sources(self)
@@ -53,6 +59,11 @@ class Model:
     def joints(self) -> Mapping[str, str]:
         """By the damping of each damper in series with joints, the stiffness of these; by parameters' names."""
         return _joints(self)
+
+    @property
+    def coordinates(self) -> Mapping[str, str]:
+        """SI units of the coordinates at each end, by name, in the order of the states."""
+        return _coordinates(self)
 
     def movable(self, variables: Iterable[str]) -> tuple[str, ...]:
         """Return the names of the motions that some design variable moves; what a yaw damper reaches is among them."""
@@ -80,7 +91,7 @@ def _traced(model: Model) -> "Vehicle":
 
 @lru_cache
 def _sources(model: Model) -> dict[str, frozenset[str]]:
-    numbers = {motion.name: [a for p in motion.coefficients for a in p] for motion in _traced(model).motions}
+    numbers = {motion.name: [a for p in motion.coefficients for a in p] for motion in model.motions}
     return {name: frozenset().union(*(a for a in every if isinstance(a, Sources))) for name, every in numbers.items()}
 
 
@@ -88,6 +99,17 @@ def _sources(model: Model) -> dict[str, frozenset[str]]:
 def _joints(model: Model) -> dict[str, str]:
     laws: list[Any] = [law for link in _traced(model).physical if isinstance(link, Link) for law in link.maxwell]
     return {damping: stiffness for law in laws for damping in law.c for stiffness in law.K}
+
+
+@lru_cache
+def _coordinates(model: Model) -> dict[str, str]:
+    return {mass.coordinate: mass.unit for mass in _traced(model).physical if isinstance(mass, Mass)}
+
+
+@lru_cache
+def known_coordinates() -> tuple[str, ...]:
+    """Return the coordinates at each end of all vehicles in the catalogue."""
+    return tuple(dict.fromkeys(name for kind in CATALOGUE for name in Model(kind).coordinates))
 
 
 class Vehicle:
@@ -125,7 +147,7 @@ class Vehicle:
 
     def replace(self, **changes: Number) -> "Vehicle":
         """Return the vehicle with other numbers."""
-        return Vehicle(self.model, {**self.p, **{"lambda" if k == "lambda_" else k: x for k, x in changes.items()}})
+        return Vehicle(self.model, {**self.p, **{key_of(name): x for name, x in changes.items()}})
 
     @property
     def C_s(self) -> Any:

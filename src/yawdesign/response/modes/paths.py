@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from yawdesign.hunting.arrays import Complex, Float, Index
-from yawdesign.response.modes.eigenvectors import Motion, spectrum
+from yawdesign.response.modes.eigenvectors import spectrum
 from yawdesign.response.modes.encounters import Encounter, Walk, walk
 from yawdesign.response.modes.links import LOST, Place
 from yawdesign.response.modes.names import NamedRoot
@@ -36,7 +36,7 @@ class Path:
     encounters: tuple[Encounter, ...]
 
 
-def follow_part(values: Float, home: float, matrices: Callable[[float], Motion], states: Index) -> Path:
+def follow_part(values: Float, home: float, matrices: Callable[[float], Float], states: Index) -> Path:
     """Follow the roots of one part of a motion.
 
     Parameters
@@ -46,14 +46,14 @@ def follow_part(values: Float, home: float, matrices: Callable[[float], Motion],
     home : float
         The value where the roots get their names.
     matrices : callable
-        Returns the motion at a value.
+        Returns the state matrix at a value.
     states : ndarray of int
         States of the part.
     """
 
     @cache
     def at(value: float) -> Place:
-        matrix = matrices(value).matrix[np.ix_(states, states)]
+        matrix = matrices(value)[np.ix_(states, states)]
         return Place(value, matrix, spectrum(matrix))
 
     walked = walk(values, at)
