@@ -33,6 +33,8 @@ def answer(*arguments, code=0):
 def test_stability_json():
     data = answer("stability", PROBLEMS / "table1.yaml")
     assert set(data) >= {"stable", "spectral_abscissa", "decay_rate", "damping_ratio", "eigenvalues", "C_s", "speed"}
+    assert data["worst_condition"] == {"speed": pytest.approx(300 / 3.6)}
+    assert (data["cases"], data["requirements"]) == ([], [])
     assert data["spectral_abscissa"] == pytest.approx(-1.2985370178, rel=1e-9)
     assert len(data["eigenvalues"]) == 25
     assert data["stable"] is True
@@ -51,9 +53,15 @@ def test_optimise_json_and_alias(tmp_path):
     file = tmp_path / "one.yaml"
     file.write_text(text[: text.index("  variables:")] + "  variables:\n    C_s: {min: 10 kN s/m, max: 10 MN s/m}\n")
     data = answer("optimize", file)
-    keys = {"optimum", "objective", "margin", "margin_before", "active", "rotational_resistance", "fixed_modes"}
-    assert set(data) >= keys | DESIGN_KEYS
+    keys = {"optimum", "C_s", "objective", "margin", "margin_before", "worst_condition", "active", "status", "C_su"}
+    keys |= {"rotational_resistance", "fixed_modes", "requirements", "cases", "forward"}
+    assert set(data) >= keys
+    assert not {"C_sl", "critical", "stable_intervals", "sensitivity"} & set(data)  # of the golden section
+    assert set(data["forward"]) >= DESIGN_KEYS
     assert set(data["optimum"]) == {"C_s", "K_m", "C_m"}
+    assert data["C_s"] == data["optimum"]["C_s"] != data["forward"]["C_s"]
+    assert (data["status"], data["forward"]["status"]) == ("optimal", "ok")
+    assert data["worst_condition"] == {"speed": pytest.approx(300 / 3.6)}
     assert data["margin"] > data["margin_before"]
 
 

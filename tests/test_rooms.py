@@ -83,7 +83,7 @@ def test_the_drawing_is_of_these_rooms():
 @pytest.mark.parametrize("path", sorted((ROOT / "response").glob("*/*.py")), ids=lambda path: "/".join(path.parts[-2:]))
 def test_the_response_goes_from_modes_over_the_track_to_the_run(path):
     order = ("modes", "track", "run")
-    used = {name.split(".")[2] for name in imports(path) if name.startswith("yawdesign.response.")}
+    used = {name.split(".")[2] for name in rooms.imports(path) if name.startswith("yawdesign.response.")}
     assert used <= set(order[: order.index(path.parent.name) + 1])
 
 

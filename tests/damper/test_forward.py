@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.damper.forward import intersect
+from yawdesign.damper.decision import decide
+from yawdesign.damper.status import Status
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "cases.json").read_text())["cases"]
 
@@ -154,9 +155,27 @@ def test_sensitivities_against_differences():
         assert result.sensitivity[name] == pytest.approx(np.log(up / down) / np.log((1 + h) / (1 - h)), rel=1e-5)
 
 
-def test_intersect():
-    assert intersect([(0, 2), (3, 9)], [(1, 4), (5, 6)]) == ((1, 2), (3, 4), (5, 6))
-    assert intersect([(0, 1)], [(1, 2)]) == ()
+def test_what_is_stable_under_every_condition():
+    first = np.array([[2.0, 3.0, 9.0]]), np.array([[0, 2, 0, 2]])  # stable in (0, 2) and (3, 9)
+    second = np.array([[1.0, 4.0, 5.0, 6.0]]), np.array([[2, 0, 2, 0, 4]])  # in (1, 4) and (5, 6)
+    decision = decide([first, second], np.array([np.inf]), np.array([True]))
+    assert decision.stable_intervals(0) == ((1, 2), (3, 4), (5, 6))
+    touching = np.array([[1.0]]), np.array([[0, 2]])
+    nothing = decide([touching, (np.array([[1.0]]), np.array([[2, 0]]))], np.array([9.0]), np.array([True]))
+    assert nothing.stable_intervals(0) == ()
+    assert nothing.status == [Status.STABLE_FOR_NONE]
+
+
+def test_every_status_tells_what_to_do():
+    """A word leads back to its kind; where there is something to do, the message says so."""
+    assert len(Status) == 13
+    for status in Status:
+        assert Status(str(status)) == status
+        assert status.message.startswith(status.meaning)
+        assert status.message.endswith(status.remedy)
+        assert status.told("a reason").startswith(f"{status.meaning}: a reason")
+    unequal = {status for status in Status if Status(str(status)) is not status}
+    assert unequal == {Status.NO_FEASIBLE_DESIGN, Status.UNVERIFIED_OPTIMUM}
 
 
 @pytest.mark.parametrize("C_m", [1e-6, 1e-4, 1e-3, 2e-3, 1e-2])

@@ -9,19 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from yawdesign.damper.status import Status
 from yawdesign.hunting.arrays import Bools, Float
 
 GOLDEN = 0.382
-
-OK = "ok"
-STABLE_EVERYWHERE = "stable for every C_s"
-PARTLY_UNSTABLE = "partly unstable"
-INFEASIBLE = "infeasible"
-INFEASIBLE_CURVE = "infeasible in the curve"
-STABLE_NOWHERE = "stable for none"
-UNDAMPED = "motor yaw undamped"
-NO_UPPER_LIMIT = "no upper limit"
-UNVERIFIED = "unverified"
 
 Crossings = tuple[Float, Float]
 
@@ -39,7 +30,7 @@ class Decision:
     C_sl, C_s : array, shape (n,)
         Lower end of the interval the design lies in, or else of the lowest stable one, and the design [N s/m].
     status : array of str, shape (n,)
-        What kind of answer this is.
+        What kind of answer this is: the word of a `Status`.
     """
 
     low: Float
@@ -48,6 +39,11 @@ class Decision:
     C_sl: Float
     C_s: Float
     status: NDArray[np.str_]
+
+    def stable_intervals(self, k: int) -> tuple[tuple[float, float], ...]:
+        """Return the open intervals of C_s in which a vehicle is stable under every condition [N s/m]."""
+        stable = self.stable[k] & (self.low[k] < self.high[k])
+        return tuple(zip(self.low[k][stable].tolist(), self.high[k][stable].tolist(), strict=True))
 
 
 def decide(crossings: Sequence[Crossings], upper: Float, others_stable: Bools) -> Decision:
@@ -81,15 +77,15 @@ def decide(crossings: Sequence[Crossings], upper: Float, others_stable: Bools) -
     everywhere = (stable & (low == 0) & np.isinf(high)).any(axis=1)
     parts = np.sum(width > 0, axis=1)
     cases = {  # the first that applies
-        UNDAMPED: ~others_stable,
-        STABLE_NOWHERE: ~any_stable,
-        INFEASIBLE_CURVE: upper <= 0,
-        INFEASIBLE: ~some,
-        PARTLY_UNSTABLE: (end < upper) | (parts > 1),
-        NO_UPPER_LIMIT: np.isinf(end),
-        STABLE_EVERYWHERE: everywhere,
+        Status.UNDAMPED: ~others_stable,
+        Status.STABLE_FOR_NONE: ~any_stable,
+        Status.INFEASIBLE_IN_CURVE: upper <= 0,
+        Status.INFEASIBLE: ~some,
+        Status.PARTLY_UNSTABLE: (end < upper) | (parts > 1),
+        Status.NO_UPPER_LIMIT: np.isinf(end),
+        Status.STABLE_FOR_EVERY: everywhere,
     }
-    return Decision(low, high, stable, C_sl, C_s, np.select([*cases.values()], [*cases], OK))
+    return Decision(low, high, stable, C_sl, C_s, np.select([*cases.values()], [*cases], Status.OK))
 
 
 def _common(crossings: Sequence[Crossings]) -> tuple[Float, Float, Bools]:

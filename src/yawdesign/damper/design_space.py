@@ -1,35 +1,25 @@
-"""The design space of a problem: its variables as a unit cube, and the margins at its points.
+"""The design space of a problem: its variables as a unit cube.
 
 The curve's limit is built into the cube: the coordinate of C_s runs up to what the curve allows with the other
 variables, so every point of the cube with ``C_su`` above the lower bound is feasible.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from yawdesign.damper.curving import LOWERING, RAISING, curving_limit, resistance_scale, resisting_moment
-from yawdesign.hunting.arrays import Float
-from yawdesign.hunting.eigenvalues import MARGINS
-from yawdesign.hunting.old import core_eigenvalues, fixed_factors
-from yawdesign.hunting.routh import damped_more, decays_faster
+from yawdesign.damper.worst_margin import WorstMargin
+from yawdesign.hunting.arrays import Bools, Float
+from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.problem import PARAMETERS, Curve, Problem
-from yawdesign.problem.conditions import Condition, conditions
-from yawdesign.vehicle.old import characteristic
+from yawdesign.problem.conditions import Condition, conditions, distinct
+from yawdesign.vehicle.vehicle import Model
 
 Values = dict[str, Any]
-
-# The dampers that have joints, and the stiffnesses of these. Where a damper is so weak that its stroke's own root -K/c
-# lies further out than this [1/s], its joint counts as rigid: it moves no other root by more than rounding does, and an
-# eigenvalue that large would spoil all others. A damper without damping has no such root at all.
-JOINTS: Mapping[str, str] = {"C_s": "K_ds", "C_m": "K_dm", "C_t": "K_dt"}
-FASTEST = 1e10
-JOINTED = frozenset(JOINTS)
-LEAST = 1.0  # [N s/m]: what is as good as no damping where 0 cannot stand
 
 
 @dataclass(frozen=True)
@@ -39,7 +29,7 @@ class Space:
     Parameters
     ----------
     problem : Problem
-        Its design variables span the space; its speeds are the conditions.
+        Its design variables span the space.
     """
 
     problem: Problem
@@ -61,22 +51,30 @@ class Space:
         """The curve of the problem."""
         return self.problem.curve
 
+    @property
+    def objective(self) -> str:
+        """What is to be largest."""
+        return self.problem.design.objective
+
     @cached_property
-    def cases(self) -> tuple[Condition, ...]:
-        """The conditions over which a margin is the worst."""
+    def model(self) -> Model:
+        """Which equations."""
+        return Model.of(self.problem)
+
+    @cached_property
+    def conditions(self) -> tuple[Condition, ...]:
+        """The conditions under which everything must hold."""
         return conditions(self.problem)
 
     @cached_property
-    def model(self) -> dict[str, str]:
-        """The keywords that choose the equations."""
-        return self.problem.model
+    def loads(self) -> tuple[Condition, ...]:
+        """The conditions that differ for the curve, through which every bogie runs at the curve's own speed."""
+        return distinct(self.conditions, {"v"})
 
     @cached_property
-    def movable(self) -> tuple[str, ...]:
-        """Names of the decoupled motions that some variable moves; they count in the margin."""
-        p = {**self.problem.bogie.parameters(), "v": self.cases[0].speed}
-        fixed = fixed_factors(p, self.names, **self.model)
-        return tuple(name for name in characteristic(p, **self.model).factors if name not in fixed)
+    def worst_margin(self) -> WorstMargin:
+        """The margin that is to be largest."""
+        return WorstMargin(self.conditions, self.objective, self.names)
 
     def bounds(self, name: str) -> tuple[float, float]:
         """Return lower and upper bound of a variable in SI, as written."""
@@ -100,7 +98,9 @@ class Space:
         """Return the ends of a coordinate: the bounds, and for C_s what the curve allows with the other values."""
         low, high = self.bounds(name)
         if name == "C_s" and self.curve is not None:
-            return low, np.clip(curving_limit(known, self.curve), low, high)
+            for load in self.loads:
+                high = np.minimum(high, curving_limit(load.applied(known), self.curve))
+            return low, np.maximum(low, high)
         return low, high
 
     @cached_property
@@ -116,41 +116,41 @@ class Space:
             points.append(self.coordinates(p))
         return np.array(points).T
 
-    def feasible(self, values: Values) -> NDArray[np.bool_]:
+    def feasible(self, values: Values) -> Bools:
         """Return where the curve's limit is kept (within rounding)."""
-        if self.curve is None:
-            return np.asarray(True)
-        T = resisting_moment(values, values["C_s"], self.curve)
-        allowed = self.curve.limit * resistance_scale(values, self.curve)
-        return np.asarray(allowed * (1 + 1e-12) >= T)
+        kept = np.asarray(True)
+        for load in self.loads if self.curve is not None else ():
+            p = load.applied(values)
+            T = resisting_moment(p, p["C_s"], self.curve)
+            kept = kept & (self.curve.limit * resistance_scale(p, self.curve) * (1 + 1e-12) >= T)
+        return kept
 
-    def beats(self, values: Values, level: Float | float) -> NDArray[np.bool_]:
-        """Return where the margin exceeds a level, by Routh's array in every condition; a ratio below zero as zero."""
-        return np.asarray(_piecewise(self._beats, values, level) & self.feasible(values))
+    def beats(self, values: Values, level: Float | float) -> Bools:
+        """Return where a design is feasible and its margin exceeds a level; a ratio below zero counts as zero.
 
-    def _beats(self, values: Values, level: Float | float) -> NDArray[np.bool_]:
-        verdict = np.asarray(True)
-        ratio = self.problem.design.objective == "damping_ratio"
-        for case in self.cases:
-            c = characteristic(case.applied(values), **self.model)
-            for p in [c.core(values["C_s"]), *(c.factors[name] for name in self.movable)]:
-                floor = np.maximum(level, 0) if ratio else level
-                verdict = verdict & (damped_more(p, floor) if ratio else decays_faster(p, floor))
-        return verdict
+        Parameters
+        ----------
+        values : mapping
+            Parameters and C_s in SI units: numbers, or arrays of one shape (n,).
+        level : number or array
+            [1/s] or [-].
+        """
+        sets, shape = self._sets(values)
+        exceeded = self.worst_margin.exceeds(sets, np.broadcast_to(np.asarray(level, dtype=float), sets.size))
+        return exceeded.reshape(shape) & self.feasible(values)
 
     def margins(self, values: Values) -> Float:
-        """Return the margins from eigenvalues, minus infinity where the curve's limit is exceeded."""
-        return np.where(self.feasible(values), _piecewise(self._margins, values), -np.inf)
+        """Return the margins, minus infinity where the curve's limit is exceeded. Parameters as in `beats`."""
+        sets, shape = self._sets(values)
+        return np.where(self.feasible(values), self.worst_margin.of(sets).reshape(shape), -np.inf)
 
-    def _margins(self, values: Values) -> Float:
-        measure = MARGINS[self.problem.design.objective]
-        worst = np.asarray(np.inf)
-        for case in self.cases:
-            p = case.applied(values)
-            worst = np.minimum(worst, measure(core_eigenvalues(p, values["C_s"], **self.model)))
-            for factor in (characteristic(p, **self.model).factors[name] for name in self.movable):
-                worst = np.minimum(worst, measure(quadratic_roots(factor)))
-        return worst
+    def under_each(self, values: Values) -> Float:
+        """Return the margins under every condition, shape (conditions, n). Parameters as in `beats`."""
+        return self.worst_margin.under_each(self._sets(values)[0])
+
+    def _sets(self, values: Values) -> tuple[ParameterSets, tuple[int, ...]]:
+        shape = np.broadcast_shapes(*map(np.shape, values.values()))
+        return ParameterSets(self.model, values, int(np.prod(shape))), shape
 
     def margins_at(self, x: Float) -> Float:
         """Return the margins at points of the cube, shape (variables, points)."""
@@ -175,37 +175,3 @@ def fraction(low: float, high: float, value: float, size: float) -> float:
 
 def _width(low: Any, high: Any, size: float) -> Any:
     return np.log1p((high - low) / (low + size))
-
-
-def rigid_joints(values: Values) -> dict[str, NDArray[np.bool_]]:
-    """Return, by the stiffness of each joint, where it counts as rigid beside its damper."""
-    return {K: np.asarray(values[c] * FASTEST < values[K]) for c, K in JOINTS.items() if c in values}
-
-
-def _piecewise(function: Callable[..., Any], values: Values, *more: Any) -> Any:
-    """Return a function of values, some of them arrays, evaluated apart for each set of joints that count as rigid."""
-    rigid = rigid_joints(values)
-    pattern = np.asarray(sum(2**k * is_rigid for k, is_rigid in enumerate(rigid.values())))
-    out = np.asarray(0.0)
-    for code in np.unique(pattern):
-        stiff = {K: np.inf for k, K in enumerate(rigid) if code >> k & 1}
-        chosen = pattern == code
-        if np.all(chosen):
-            return function(values | stiff, *more)
-        part = function(_picked(chosen, values) | stiff, *(_picked(chosen, x) for x in more))
-        out = out if out.shape else np.zeros(pattern.shape, dtype=part.dtype)
-        out[chosen] = part
-    return out
-
-
-def _picked(chosen: NDArray[np.bool_], value: Any) -> Any:
-    if isinstance(value, dict):
-        return {name: _picked(chosen, each) for name, each in value.items()}
-    return value[chosen] if np.shape(value) else value
-
-
-def quadratic_roots(p: tuple[Any, ...]) -> NDArray[np.complex128]:
-    """Return the two roots of quadratics, last axis."""
-    c, b, a = (np.asarray(q, dtype=complex) for q in p)
-    root = np.sqrt(b * b - 4 * a * c)
-    return np.stack(np.broadcast_arrays((-b + root) / (2 * a), (-b - root) / (2 * a)), axis=-1)

@@ -1,41 +1,22 @@
 """Forward design of the yaw damper: stable intervals, curving limit, golden section (eqs (11) to (15))."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import reduce
 
 import numpy as np
 
 from yawdesign.damper.curving import curving_limit, rotational_resistance
-from yawdesign.hunting.critical_damping import CriticalDamping, CriticalValue, Interval
-from yawdesign.hunting.old import boundary as graphs
-from yawdesign.hunting.old import critical_damping, stability_at, undamped_roots
-from yawdesign.problem import Problem
-from yawdesign.problem.conditions import conditions
+from yawdesign.damper.decision import decide
+from yawdesign.damper.status import Status
+from yawdesign.hunting.boundary import boundary, boundary_slope, parameter_names
+from yawdesign.hunting.critical_damping import CriticalDamping, CriticalValue, Interval, critical_damping
+from yawdesign.hunting.routh import TIME_UNIT, count_unstable
+from yawdesign.hunting.verdict import stability_at
+from yawdesign.problem import Curve, Problem
 from yawdesign.problem.result import Result
-from yawdesign.vehicle.old import characteristic
+from yawdesign.vehicle.vehicle import Vehicle
 
-GOLDEN = 0.382
-
-UNDAMPED = "motor yaw undamped"
-
-REMEDIES = {
-    "ok": "the design interval (C_sl, C_su) is stable throughout",
-    "stable for every C_s": "no yaw damping is needed for stability; the golden section starts at C_sl = 0",
-    "partly unstable": "part of the range between the lowest stable damping and C_su is unstable: keep C_s inside the "
-    "stable interval it was chosen from",
-    "infeasible": "every stable damping is above what the curve allows: allow a larger curve radius or transition, "
-    "lower the speeds, or change the suspension (optimise K_m and C_m)",
-    "infeasible in the curve": "the curve's limit is exceeded even without a yaw damper: lower K_2x or b_2, or allow a "
-    "larger radius or limit",
-    "stable for none": "no yaw damping makes the bogie stable: lower the speed or the conicity, or change the "
-    "suspension (optimise K_m and C_m)",
-    UNDAMPED: "a motion that no yaw damper reaches is undamped: the motors yaw on their own suspension; give "
-    "K_mphi and C_mphi values above zero",
-    "no upper limit": "stable up to any damping, and no curve is given that limits it: add `curve` to choose C_s",
-    "unverified": "two independent ways to the critical values or to the verdict differ: do not use this result; two "
-    "critical values coincide, the parameters are too extreme, or a root lies on the boundary for every C_s",
-}
+ON_BOUNDARY = 1e-10  # largest residual of the scaled equations of the boundary with which a value has derivatives
 
 
 @dataclass(frozen=True)
@@ -60,15 +41,18 @@ class ForwardDesign(Result):
     C_su : float or None
         What the curve allows, eq. (14) [N s/m].
     C_s : float or None
-        Golden section 0.382 of the way from C_sl to C_su, or to the end of the stable interval if that is lower.
-    status, message : str
-        What kind of answer this is, and what to do.
+        Golden section 0.382 of the way from C_sl to C_su, or to the end of the stable interval if that is lower
+        [N s/m].
+    status : Status
+        What kind of answer this is.
+    message : str
+        The same in a sentence, and what to do.
     stable : bool
         Whether that C_s is stable at every speed, by eigenvalues and by Routh's array.
     rotational_resistance : float or None
-        T / (4 Q a) with that C_s.
+        T / (4 Q a) with that C_s [-].
     sensitivity : mapping
-        d ln C_sl / d ln p for every parameter p and the speed v.
+        d ln C_sl / d ln p [-] for every parameter p and the speed v.
     load : str or None
         The load that stands for Q in eq. (13): axle or wheel.
     checked : bool
@@ -104,108 +88,86 @@ def design(problem: Problem) -> ForwardDesign:
     >>> round(result.C_sl, 3), round(result.C_su, 3), round(result.C_s)
     (90702.89, 2593442.982, 1046750)
     """
-    p, cases = problem.bogie.parameters(), conditions(problem)
-    found = [critical_damping(case.applied(p), **problem.model) for case in cases]
-    damped = factors_damped(problem)
-    stable = reduce(intersect, [sets.stable_intervals for sets in found]) if damped else ()
-    upper = None if problem.curve is None else float(curving_limit(p, problem.curve))
-    interval = _chosen(stable, np.inf if upper is None else upper)
-    golden = _golden(interval)
-    checked = all(sets.checked for sets in found) and (golden is None or _is_stable(problem, golden))
-    status = _status(stable, upper, interval) if damped else UNDAMPED
-    status = status if checked else "unverified"
+    return forward_design(Vehicle.of(problem), problem.curve)
+
+
+def forward_design(vehicles: Sequence[Vehicle], curve: Curve | None) -> ForwardDesign:
+    """Return the forward design of a vehicle.
+
+    Parameters
+    ----------
+    vehicles : sequence of Vehicle
+        It under each of its conditions; their own C_s is not looked at.
+    curve : Curve or None
+        What limits C_s.
+    """
+    found = [critical_damping(vehicle) for vehicle in vehicles]
+    crossings = [(np.array([[x.C_s for x in sets.critical]]), np.array([sets.unstable_roots])) for sets in found]
+    upper = None if curve is None else min(float(curving_limit(vehicle.p, curve)) for vehicle in vehicles)
+    most = np.array([np.inf if upper is None else upper])
+    decision = decide(crossings, most, np.array([others_stable(vehicles)]))
+    C_sl, golden = (None if np.isnan(x[0]) else float(x[0]) for x in (decision.C_sl, decision.C_s))
+    checked = all(sets.checked for sets in found) and (golden is None or _is_stable(vehicles, golden))
+    status = Status(decision.status[0]) if checked else Status.UNVERIFIED
     C_s = golden if checked else None
-    C_sl = interval[0] if interval else (stable[0][0] if stable else None)
     return ForwardDesign(
         critical=tuple(
-            _at_speed(x, case.speed) for sets, case in zip(found, cases, strict=True) for x in sets.critical
+            _at_speed(x, vehicle) for sets, vehicle in zip(found, vehicles, strict=True) for x in sets.critical
         ),
-        stable_intervals=stable,
+        stable_intervals=decision.stable_intervals(0),
         C_sl=C_sl,
         C_su=upper,
         C_s=C_s,
         status=status,
-        message=REMEDIES[status],
+        message=status.message,
         stable=C_s is not None,
-        rotational_resistance=_resistance(problem, C_s),
-        sensitivity=_sensitivity(problem, found, C_sl),
-        load=None if problem.curve is None else problem.curve.load,
+        rotational_resistance=resistance(vehicles, C_s, curve),
+        sensitivity=_sensitivity(vehicles, found, C_sl),
+        load=None if curve is None else curve.load,
         checked=checked,
     )
 
 
-def intersect(left: Iterable[Interval], right: Iterable[Interval]) -> tuple[Interval, ...]:
-    """Return the intersection of two sets of open intervals."""
-    right = tuple(right)
-    both = [(max(a, c), min(b, d)) for a, b in left for c, d in right]
-    return tuple(sorted((low, high) for low, high in both if low < high))
+def others_stable(vehicles: Iterable[Vehicle]) -> bool:
+    """Return whether all motions that no yaw damper reaches are stable; no C_s can help there."""
+    others = [motion for vehicle in vehicles for motion in vehicle.motions if not motion.varied]
+    return all(count_unstable(motion.polynomial(0)) == 0 for motion in others)
 
 
-def factors_damped(problem: Problem) -> bool:
-    """Return whether the motors' own yaw is damped; no yaw damper of the bogie can help there."""
-    factors = characteristic({**problem.bogie.parameters(), "v": 1.0}, **problem.model).factors
-    return not any(undamped_roots(p) for p in factors.values())
+def _at_speed(x: CriticalValue, vehicle: Vehicle) -> Critical:
+    return Critical(x.C_s, x.omega, x.becomes, x.residual, float(vehicle.v))
 
 
-def _chosen(stable: tuple[Interval, ...], upper: float) -> Interval | None:
-    below = intersect(stable, [(0.0, upper)])
-    return max(below, key=lambda i: i[1] - i[0]) if below else None
-
-
-def _golden(interval: Interval | None) -> float | None:
-    if interval is None or np.isinf(interval[1]):
-        return None
-    return GOLDEN * interval[1] + (1 - GOLDEN) * interval[0]
-
-
-def _status(stable: tuple[Interval, ...], upper: float | None, interval: Interval | None) -> str:
-    if not stable:
-        return "stable for none"
-    if upper is not None and upper <= 0:
-        return "infeasible in the curve"
-    if interval is None:
-        return "infeasible"
-    limit = np.inf if upper is None else upper
-    if interval[1] < limit or len(intersect(stable, [(0.0, limit)])) > 1:
-        return "partly unstable"
-    if np.isinf(interval[1]):
-        return "no upper limit"
-    return "stable for every C_s" if stable == ((0.0, np.inf),) else "ok"
-
-
-def _at_speed(x: CriticalValue, speed: float) -> Critical:
-    return Critical(x.C_s, x.omega, x.becomes, x.residual, float(speed))
-
-
-def _is_stable(problem: Problem, C_s: float) -> bool:
+def _is_stable(vehicles: Iterable[Vehicle], C_s: float) -> bool:
     """Return whether the eigenvalues and Routh's array confirm a design that lies in a stable interval."""
-    p = problem.bogie.parameters()
-    verdicts = [stability_at(case.applied(p), C_s, **problem.model) for case in conditions(problem)]
+    verdicts = [stability_at(vehicle.replace(C_s=C_s)) for vehicle in vehicles]
     return all(x.stable and x.checked for x in verdicts)
 
 
-def _resistance(problem: Problem, C_s: float | None) -> float | None:
-    if C_s is None or problem.curve is None or not problem.bogie.W:
+def resistance(vehicles: Sequence[Vehicle], C_s: float | None, curve: Curve | None) -> float | None:
+    """Return the largest T / (4 Q a) [-] of a vehicle under its conditions, where there is one."""
+    if C_s is None or curve is None or not all(vehicle.p["W"] for vehicle in vehicles):
         return None
-    return float(rotational_resistance(problem.bogie.parameters(), C_s, problem.curve))
+    return max(float(rotational_resistance(vehicle.p, C_s, curve)) for vehicle in vehicles)
 
 
-def _sensitivity(problem: Problem, found: list[CriticalDamping], C_sl: float | None) -> dict[str, float]:
-    for sets, case in zip(found, conditions(problem), strict=True):
+def _sensitivity(vehicles: Sequence[Vehicle], found: Sequence[CriticalDamping], C_sl: float | None) -> dict[str, float]:
+    for sets, vehicle in zip(found, vehicles, strict=True):
         for x in sets.critical:
             if x.C_s == C_sl:
-                return sensitivity(case.applied(problem.bogie.parameters()), x, **problem.model)
+                return sensitivity(vehicle, x)
     return {}
 
 
-def sensitivity(p: Mapping[str, float], x: CriticalValue, *, kind: str, equations: str) -> dict[str, float]:
-    """Return d ln C / d ln p of a critical value for every parameter p and v, by implicit differentiation.
+def sensitivity(vehicle: Vehicle, x: CriticalValue) -> dict[str, float]:
+    """Return d ln C / d ln p [-] of a critical value for every parameter p and v, by implicit differentiation.
 
     Empty if the derivative does not exist (two critical values that have just met) or fails its residual check.
     """
-    p = {name: float(value) for name, value in p.items() if name != "C_s"}
-    solved = graphs.critical_damping(graphs.parameter_names(p), kind, equations)(list(p.values()), x.C_s, x.omega)
-    C_s, residual, gradient = float(solved[0]), float(solved[2]), np.array(solved[3]).ravel()
-    if not (abs(C_s / x.C_s - 1) < 1e-6 and residual < 1e-10 and np.all(np.isfinite(gradient))):
+    names = parameter_names(vehicle.p)
+    p, z = [float(vehicle.p[name]) for name in names], [np.log(x.C_s), x.omega / TIME_UNIT]
+    residual = np.linalg.norm(np.array(boundary(vehicle.model, names)(z, p)))
+    slope = np.array(boundary_slope(vehicle.model, names)(z, p)).ravel()
+    if not (residual < ON_BOUNDARY and np.all(np.isfinite(slope))):
         return {}
-    return {name: float(g * value / C_s) for (name, value), g in zip(p.items(), gradient, strict=True)}
+    return {name: float(value * g) for name, value, g in zip(names, p, slope, strict=True)}

@@ -1,42 +1,35 @@
 """The design of largest margin that the curve allows: dense search, IPOPT, and a polish by verdicts."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from yawdesign.damper.curving import excess, rotational_resistance
+from yawdesign.damper.curving import excess
 from yawdesign.damper.design_space import Space, fraction, scale
-from yawdesign.damper.forward import REMEDIES, UNDAMPED, ForwardDesign, design, factors_damped
-from yawdesign.damper.nlp import improve
+from yawdesign.damper.forward import ForwardDesign, design, forward_design, others_stable, resistance
+from yawdesign.damper.nlp import Improver
 from yawdesign.damper.search import refine, search
-from yawdesign.hunting.arrays import Float
+from yawdesign.damper.status import Status
+from yawdesign.hunting.arrays import Bools, Float
 from yawdesign.hunting.hurwitz import hurwitz_minors
-from yawdesign.hunting.old import stability_at
-from yawdesign.hunting.routh import TIME_UNIT
-from yawdesign.hunting.verdict import Mode, Stability
+from yawdesign.hunting.routh import TIME_UNIT, damped_more, decays_faster
+from yawdesign.hunting.verdict import Mode, Stability, stability_at
 from yawdesign.problem import Curve, Problem, ProblemError
 from yawdesign.problem.arguments import Progress
+from yawdesign.problem.result import Result
 from yawdesign.problem.table import as_seed
-from yawdesign.vehicle.old import paper_coefficients
 from yawdesign.vehicle.polynomials import trim
+from yawdesign.vehicle.vehicle import Vehicle
 
 TURNS = ((6, 1e-3), (2, 1e-5))  # number of starts of the NLP, radius of the refinement after it
 # How close the margins by two routes must be. Where two roots coalesce, as they do at many optima, an eigenvalue is
 # right to 1e-8 of its own modulus only; a hunting mode's is 10 ... 30 rad/s.
 AGREE = {"decay_rate": 2e-5, "damping_ratio": 1e-6}
+SECTIONS, LEVELS = 3, 1025  # of the margin by Routh's array: how often it is enclosed, and by how many levels
 MOST_SEARCHES = 7  # in six variables and more; what these miss, other seeds may find
 ACTIVE = 1e-4  # a variable within this share of its range from a bound stands at the bound
-
-MESSAGES = {
-    "optimal": "best design found within the bounds and the curve's limit",
-    "unstable": "no design within the bounds is stable: lower the speed, widen the bounds or vary other parameters",
-    "infeasible": "no design within the bounds keeps the curve's limit: {}; lower C_s or its bounds, allow a larger "
-    "radius or limit, or let other parameters vary",
-    "unverified": "eigenvalues and Routh's array differ: do not use this result; the parameters are too extreme for "
-    "double precision",
-}
 
 
 @dataclass(frozen=True)
@@ -59,8 +52,8 @@ class Bound:
 
 
 @dataclass(frozen=True, repr=False)
-class Optimum(ForwardDesign):
-    """Answer of the optimisation; the keys of `ForwardDesign` are those of the optimum's bogie.
+class Optimum(Result):
+    """Answer of the optimisation.
 
     Parameters
     ----------
@@ -68,49 +61,70 @@ class Optimum(ForwardDesign):
         Value of C_s, K_m, C_m and of every other design variable, in SI units (None without motors).
     objective : {"decay_rate", "damping_ratio"}
         What was maximised.
+    C_s : float or None
+        Damping of the pair of yaw dampers at the optimum [N s/m]; that of the golden section is ``forward.C_s``.
     margin, margin_before : float or None
-        Worst margin over all speeds, of the optimum and of the problem as written (None without a value of C_s): 1/s
-        for a decay rate.
+        Worst margin under all conditions, of the optimum and of the problem as written (None without a value of C_s):
+        [1/s] for a decay rate, [-] for a damping ratio.
+    worst_condition : mapping
+        The condition under which the optimum has that margin: ``speed`` [m/s].
     active : tuple of str
         Limits at which the optimum lies: ``"K_m max"``, ``"rotational_resistance"``.
+    status : Status
+        What kind of answer this is.
+    message : str
+        The same in a sentence, and what to do.
+    stable : bool
+        Whether the optimum is stable under every condition.
+    C_su : float or None
+        What the curve allows with the optimum's bogie, eq. (14) [N s/m].
+    rotational_resistance : float or None
+        T / (4 Q a) of the optimum [-].
     bounds : mapping name -> Bound
         Where in its bounds each variable lies.
-    status, message : str
-        What kind of answer this is, and what to do.
-    design_status : str
-        Status of the forward design with the optimum's bogie.
-    rotational_resistance : float or None
-        T / (4 Q a) of the optimum.
+    before : mapping
+        Values of the design variables as written, in SI units (None where not given).
     fixed_modes : mapping name -> tuple of complex
         Roots that no design variable moves [1/s].
     modes : tuple of Mode
-        All modes of the optimum at the worst speed.
+        All modes of the optimum under its worst condition.
+    requirements, cases : tuple
+        What was required and reached, and the faults that were looked at: none.
     hurwitz_positive : bool
-        Whether all Hurwitz minors of eq. (10) are positive at the optimum, at every speed.
+        Whether all Hurwitz minors of eq. (10) are positive at the optimum, under every condition.
     margin_polynomial : float or None
         The margin by Routh's array of the polynomial, found by bisection: the second route.
-    before : mapping
-        Values of the design variables as written (None where not given).
+    checked : bool
+        Whether both routes agree.
+    load : str or None
+        The load that stands for Q in eq. (13): axle or wheel.
     forward : ForwardDesign
-        The forward design with the optimum's bogie.
-    optimum_stable : bool
-        Whether the optimum is stable at every speed (`stable` belongs to the golden section, `C_s`).
+        The forward design with the optimum's bogie: critical values, stable intervals, golden section.
     """
 
     optimum: Mapping[str, float | None]
     objective: str
+    C_s: float | None
     margin: float | None
     margin_before: float | None
+    worst_condition: Mapping[str, float]
     active: tuple[str, ...]
+    status: str
+    message: str
+    stable: bool
+    C_su: float | None
+    rotational_resistance: float | None
     bounds: Mapping[str, Bound]
-    design_status: str
+    before: Mapping[str, float | None]
     fixed_modes: Mapping[str, tuple[complex, ...]]
     modes: tuple[Mode, ...]
     hurwitz_positive: bool
     margin_polynomial: float | None
-    before: Mapping[str, float | None]
+    checked: bool
+    load: str | None
     forward: ForwardDesign
-    optimum_stable: bool
+    requirements: tuple[Any, ...] = ()
+    cases: tuple[Any, ...] = ()
 
 
 def optimise(
@@ -155,16 +169,14 @@ def _searches(space: Space) -> int:
 
 def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
     """Return the best point after IPOPT and refinement in turn: each leaves the ridges on which the other stops."""
-    rng, margin = np.random.default_rng(seed), space.margins_at(x)
+    rng, margin, improver = np.random.default_rng(seed), space.margins_at(x), Improver(space, options)
     order = np.argsort(-margin, kind="stable")
     x, margin = x[:, order], margin[order]
     more = min(max(1, len(space.names) - 2), MOST_SEARCHES)  # local optima multiply with the variables
     for turn, (starts, radius) in enumerate(TURNS):
         progress("solving the NLP", turn / len(TURNS))
-        reached = [
-            y for k in range(min(starts * more, x.shape[1])) for y in improve(space, x[:, k], float(margin[k]), options)
-        ]
-        reached = [y[:, None] for y in reached if np.all(np.isfinite(y))]
+        starts = min(starts * more, x.shape[1])
+        reached = [y[:, None] for k in range(starts) for y in improver.improve(x[:, k], float(margin[k]))]
         x = np.concatenate([x, *reached], axis=1)
         margin = space.margins_at(x)
         order = np.argsort(-margin, kind="stable")[: 4 * more]
@@ -175,94 +187,107 @@ def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progres
 
 def _answer(space: Space, x: Float) -> Optimum:
     values = {name: float(np.squeeze(v)) for name, v in space.values(x).items()}
-    margin = float(space.margins(values))
-    second = _bisect(space, values, margin)
-    worst = _worst(space, values)
-    final = space.problem.replace(**values)
-    forward = design(final)
-    agree = worst.checked and abs(second - margin) <= AGREE[space.problem.design.objective]
-    status = "unverified" if not agree else ("optimal" if worst.stable else "unstable")
+    vehicles = [space.model.at(condition.applied(values)) for condition in space.conditions]
+    results = [stability_at(vehicle, space.names) for vehicle in vehicles]
+    margin, worst = _worst(space, results)
+    second = _margin_by_routh(space, vehicles, margin)
+    stable = all(result.stable for result in results)
+    agree = all(result.checked for result in results) and abs(second - margin) <= AGREE[space.objective]
+    status = (Status.OPTIMAL if stable else Status.UNSTABLE) if agree else Status.UNVERIFIED_OPTIMUM
+    helpless = status == Status.UNSTABLE and not others_stable(vehicles)
     bounds = {name: _bound(space, name, values[name]) for name in space.names}
+    resisted = resistance(vehicles, values["C_s"], space.curve)
     return _optimum(
         space,
-        forward,
+        forward_design(vehicles, space.curve),
         status,
-        optimum={name: values.get(name) for name in dict.fromkeys(("C_s", "K_m", "C_m", *space.names))},
+        optimum={name: values.get(name) for name in _named(space)},
         margin=margin,
-        active=_active(space, values, bounds),
+        worst_condition=space.conditions[worst].described,
+        active=_active(bounds, resisted, space.curve),
+        message=Status.UNDAMPED.message if helpless else status.message,
+        stable=stable,
+        rotational_resistance=resisted,
         bounds=bounds,
-        rotational_resistance=_resistance(space, values),
-        fixed_modes=worst.fixed_modes,
-        modes=worst.modes,
-        hurwitz_positive=_hurwitz_positive(space, values),
+        fixed_modes=results[worst].fixed_modes,
+        modes=results[worst].modes,
+        hurwitz_positive=all(_hurwitz_positive(vehicle) for vehicle in vehicles),
         margin_polynomial=second,
-        optimum_stable=worst.stable,
-        checked=agree and forward.checked,
-        message=_message(space, status),
+        checked=agree,
     )
-
-
-def _message(space: Space, status: str) -> str:
-    if status == "unstable" and not factors_damped(space.problem):
-        return REMEDIES[UNDAMPED]
-    return MESSAGES[status]
 
 
 def _nothing(space: Space, curve: Curve) -> Optimum:
     values = {name: float(value) for name, value in space.values(space.gentlest).items()}
-    message = MESSAGES["infeasible"].format(excess(values, space.names, curve))
-    nothing: dict[str, Any] = {"margin": None, "active": ("rotational_resistance",), "bounds": {}, "fixed_modes": {}}
-    nothing |= {"optimum_stable": False, "message": message}
-    nothing |= {"modes": (), "hurwitz_positive": False, "margin_polynomial": None, "rotational_resistance": None}
-    names = dict.fromkeys(("C_s", "K_m", "C_m", *space.names))
-    return _optimum(space, design(space.problem), "infeasible", optimum=names, **nothing)
+    return _optimum(
+        space,
+        design(space.problem),
+        Status.NO_FEASIBLE_DESIGN,
+        optimum=dict.fromkeys(_named(space)),
+        margin=None,
+        worst_condition={},
+        active=("rotational_resistance",),
+        message=Status.NO_FEASIBLE_DESIGN.told(excess(values, space.names, curve)),
+        stable=False,
+        rotational_resistance=None,
+        bounds={},
+        fixed_modes={},
+        modes=(),
+        hurwitz_positive=False,
+        margin_polynomial=None,
+        checked=True,
+    )
 
 
-def _optimum(space: Space, forward: ForwardDesign, status: str, **own: Any) -> Optimum:
-    inherited = {f.name: getattr(forward, f.name) for f in fields(forward)}
-    common = {
-        "objective": space.problem.design.objective,
-        "margin_before": _margin_before(space),
-        "status": status,
-        "design_status": forward.status,
-        "before": {name: space.problem.bogie.parameters().get(name) for name in space.names},
-        "forward": forward,
-    }
-    return Optimum(**{**inherited, **common, **own})
+def _named(space: Space) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(("C_s", "K_m", "C_m", *space.names)))
+
+
+def _optimum(space: Space, forward: ForwardDesign, status: Status, **own: Any) -> Optimum:
+    return Optimum(
+        C_s=own["optimum"]["C_s"],
+        objective=space.objective,
+        margin_before=_margin_before(space),
+        status=status,
+        C_su=forward.C_su,
+        before={name: space.problem.bogie.parameters().get(name) for name in space.names},
+        load=forward.load,
+        forward=forward,
+        **own,
+    )
 
 
 def _margin_before(space: Space) -> float | None:
-    p = space.problem.bogie.parameters()
-    if "C_s" not in p:
+    if space.problem.bogie.C_s is None:
         return None
-    return _worst_margin(space, {name: float(v) for name, v in p.items()})
+    return _worst(space, [stability_at(vehicle, space.names) for vehicle in Vehicle.of(space.problem)])[0]
 
 
-def _worst_margin(space: Space, values: Mapping[str, float]) -> float:
-    results = [_at(space, values, k) for k in range(len(space.cases))]
-    return float(min(getattr(result, space.problem.design.objective) for result in results))
+def _worst(space: Space, results: Sequence[Stability]) -> tuple[float, int]:
+    """Return the worst margin, and the number of its condition."""
+    margins = [float(getattr(result, space.objective)) for result in results]
+    return min(margins), margins.index(min(margins))
 
 
-def _at(space: Space, values: Mapping[str, float], k: int) -> Stability:
-    return stability_at(space.cases[k].applied(values), values["C_s"], space.names, **space.model)
+def _margin_by_routh(space: Space, vehicles: Sequence[Vehicle], margin: float) -> float:
+    """Return the margin by Routh's array, looked for around the one by eigenvalues; NaN if it is not there."""
+    movable, ratio = space.model.movable(space.names), space.objective == "damping_ratio"
+    exceeds = damped_more if ratio else decays_faster
+    polynomials = [m.polynomial(vehicle.C_s) for vehicle in vehicles for m in vehicle.motions if m.name in movable]
 
+    def exceeded(level: Float) -> Bools:
+        return np.all([np.broadcast_to(exceeds(p, level), level.shape) for p in polynomials], axis=0)
 
-def _worst(space: Space, values: Mapping[str, float]) -> Stability:
-    results = [_at(space, values, k) for k in range(len(space.cases))]
-    return min(results, key=lambda r: (r.stable, getattr(r, space.problem.design.objective)))
-
-
-def _bisect(space: Space, values: Mapping[str, float], margin: float) -> float:
-    """Return the margin by Routh's array, looked for around the one by eigenvalues."""
-    if space.problem.design.objective == "damping_ratio" and margin <= 0:
-        return float("nan") if space.beats(dict(values), 0.0) else margin  # the sector's scheme ends at zero
-    width = 100 * AGREE[space.problem.design.objective]
-    low, high = margin - width, margin + width
-    if not space.beats(dict(values), low) or space.beats(dict(values), high):
-        return float("nan")
-    for _ in range(40):
-        middle = (low + high) / 2
-        low, high = (middle, high) if space.beats(dict(values), middle) else (low, middle)
+    if ratio and margin <= 0:  # the sector's scheme ends at zero
+        return float("nan") if exceeded(np.zeros(1)) else margin
+    low, high = margin - 100 * AGREE[space.objective], margin + 100 * AGREE[space.objective]
+    for _ in range(SECTIONS):
+        levels = np.linspace(max(low, 0) if ratio else low, high, LEVELS)
+        passed = exceeded(levels)
+        if not passed[0] or passed.all():
+            return float("nan")
+        end = int(np.argmin(passed))  # the first that is not exceeded
+        low, high = levels[end - 1], levels[end]
     return float(low)
 
 
@@ -271,25 +296,15 @@ def _bound(space: Space, name: str, value: float) -> Bound:
     return Bound(value, low, high, fraction(low, high, value, scale(name)))
 
 
-def _active(space: Space, values: Mapping[str, float], bounds: Mapping[str, Bound]) -> tuple[str, ...]:
+def _active(bounds: Mapping[str, Bound], resistance: float | None, curve: Curve | None) -> tuple[str, ...]:
     ends = [(f"{name} min", b.position) for name, b in bounds.items()]
     ends += [(f"{name} max", 1 - b.position) for name, b in bounds.items()]
-    resistance = _resistance(space, values)
-    if resistance is not None and space.curve is not None:
-        ends.append(("rotational_resistance", 1 - resistance / space.curve.limit))
+    if resistance is not None and curve is not None:
+        ends.append(("rotational_resistance", 1 - resistance / curve.limit))
     return tuple(name for name, gap in ends if gap < ACTIVE)
 
 
-def _resistance(space: Space, values: Mapping[str, float]) -> float | None:
-    if space.curve is None or not values["W"]:
-        return None
-    return float(rotational_resistance(values, values["C_s"], space.curve))
-
-
-def _hurwitz_positive(space: Space, values: Mapping[str, float]) -> bool:
-    positive = True
-    for case in space.cases:
-        chi = paper_coefficients(case.applied(values), values["C_s"], unit=TIME_UNIT, **space.model)
-        chi = trim(chi[::-1])[::-1]  # a damper without damping lowers the degree
-        positive &= all(sign > 0 for sign in hurwitz_minors(chi)[0])
-    return bool(positive)
+def _hurwitz_positive(vehicle: Vehicle) -> bool:
+    chi = vehicle.paper_coefficients(TIME_UNIT)
+    chi = trim(chi[::-1])[::-1]  # a damper without damping lowers the degree
+    return all(sign > 0 for sign in hurwitz_minors(chi)[0])

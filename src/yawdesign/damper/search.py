@@ -1,8 +1,9 @@
 """Global search of a design space: dense verdicts first, then refinement of the best point of many cells.
 
 A margin is the least of many smooth functions, with kinks and coalescing roots at its best points, and has many local
-optima. A verdict "is the margin above this level" by Routh's array costs about a microsecond, a margin by eigenvalues
-two hundred; so all points get a verdict against the best margin of their own cell, and few get a margin.
+optima. A verdict "is the margin above this level" costs a small part of the margin itself; so all points get a verdict
+against the best margin of their own cell; of those that pass one gets its margin, the others a verdict against that,
+and so on until none is left.
 """
 
 from collections.abc import Iterator
@@ -10,16 +11,15 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from yawdesign.damper.design_space import Space
-from yawdesign.hunting.arrays import Float
+from yawdesign.hunting.arrays import Float, Index
 from yawdesign.problem.arguments import Progress
 
-BLOCK = 20_000  # points at once: enough to hide Python's overhead, few enough for any memory
+BLOCK = 100_000  # points at once: enough to hide Python's overhead, few enough for any memory
 CELLS = 6  # cells per axis in up to three variables, each with a best point of its own; in all about 6^3
 STARTS = 20  # cells that are refined, in up to three variables; in more of them more
+FIRST = 512  # points that give the cells their first levels
 OTHERS = 4900  # points in the variables other than C_s
 LINE = 72  # points along C_s
 MOST_SPLIT = 9  # variables whose axes are divided into cells: their number doubles with each
@@ -41,45 +41,47 @@ class _DesignCells:
         per_axis = CELLS if d <= 3 else max(2, round(CELLS ** (3 / d)))
         return cls(np.full((d, per_axis**axes), 0.5), np.full(per_axis**axes, -np.inf), per_axis, axes)
 
-    def index(self, x: Float) -> NDArray[np.intp]:
+    def index(self, x: Float) -> Index:
         """Return the cell of each point."""
         cells = np.minimum((x[-self.axes :] * self.per_axis).astype(int), self.per_axis - 1)
         return np.asarray(np.ravel_multi_index(tuple(cells), (self.per_axis,) * self.axes))
 
     def offer(self, x: Float, margin: Float) -> None:
         """Keep those points that are better than their cell's best."""
-        for k in np.argsort(margin):
-            cell = self.index(x[:, k])
-            if margin[k] > self.margin[cell]:
-                self.margin[cell], self.x[:, cell] = margin[k], x[:, k]
+        rising = np.argsort(margin)  # of several points in a cell the last one stays
+        x, margin = x[:, rising], margin[rising]
+        cell = self.index(x)
+        better = margin > self.margin[cell]
+        self.margin[cell[better]], self.x[:, cell[better]] = margin[better], x[:, better]
 
 
 def search(space: Space, seed: int, progress: Progress) -> Float:
     """Return refined points of the cube, shape (variables, points), the best first."""
     d, rng = len(space.names), np.random.default_rng(seed)
     cells = _DesignCells.of(d)
-    first = np.concatenate([qmc.Sobol(d, rng=rng).random(1024).T, space.anchors], axis=1)
+    first = np.concatenate([_spread(d, FIRST, rng), space.anchors], axis=1)
     cells.offer(first, space.margins_at(first))
     blocks = list(_blocks(space, rng))
     for k, x in enumerate(blocks):
         progress("searching the design space", k / len(blocks))
-        _look(space, cells, x)
+        _look(space, cells, x[:, rng.permutation(x.shape[1])])
     order = np.argsort(-cells.margin, kind="stable")[: STARTS * min(max(1, d - 2), MOST_SPLIT)]
     order = order[np.isfinite(cells.margin[order])]
     return refine(space, cells.x[:, order], cells.margin[order], rng, progress=progress)
 
 
 def _look(space: Space, cells: _DesignCells, x: Float) -> None:
-    levels = np.maximum(cells.margin[cells.index(x)], -1e3)
-    flat = np.broadcast_to(space.beats(space.values(x), levels), x.shape[1:])
-    chosen = x[:, flat]
-    for part in np.array_split(chosen, max(1, chosen.shape[1] // 500), axis=1):
-        if part.shape[1]:
-            cells.offer(part, space.margins_at(part))
+    """Look at points in any order, and keep the best one of every cell."""
+    while x.shape[1]:
+        cell = cells.index(x)
+        x = x[:, space.beats(space.values(x), np.maximum(cells.margin[cell], -1e3))]
+        _, one = np.unique(cells.index(x), return_index=True)
+        cells.offer(x[:, one], space.margins_at(x[:, one]))
+        x = np.delete(x, one, axis=1)
 
 
 def _blocks(space: Space, rng: np.random.Generator) -> Iterator[Float]:
-    """Yield blocks of points: a grid in up to two variables beside C_s, a Sobol sequence in more; a line in C_s."""
+    """Yield blocks of points: a grid in up to two variables beside C_s, spread points in more; a line in C_s."""
     has_damping = space.names[-1] == "C_s"
     others = len(space.names) - has_damping
     line = {0: 20_000, 1: 400}.get(others, LINE) if has_damping else 1
@@ -101,11 +103,20 @@ def _others(d: int, total: int, rng: np.random.Generator) -> Float:
     if d == 0:
         return np.zeros((0, 1))
     if d > 2:
-        return np.asarray(qmc.Sobol(d, rng=rng).random(1 << (total - 1).bit_length()).T)
+        return _spread(d, 1 << (total - 1).bit_length(), rng)
     n = round(total ** (1 / d)) if d == 2 else min(total, 2000)
     axes = np.meshgrid(*[np.linspace(0, 1, n)] * d, indexing="ij")
     jitter = rng.random((d, 1)) - 0.5
     return np.clip(np.stack([axis.ravel() for axis in axes]) + jitter / n, 0, 1)
+
+
+def _spread(d: int, total: int, rng: np.random.Generator) -> Float:
+    """Return points that leave no large part of the cube empty: multiples of irrational steps, from a random start."""
+    ratio = 2.0  # becomes the root of x^(d + 1) = x + 1, for d = 1 the golden section
+    for _ in range(60):
+        ratio = (1 + ratio) ** (1 / (d + 1))
+    steps = np.outer(ratio ** -np.arange(1.0, d + 1), np.arange(total))
+    return np.asarray((rng.random((d, 1)) + steps) % 1)
 
 
 def refine(
@@ -152,20 +163,22 @@ def _stencil(x: Float, size: Float, step: Float, points: int, rng: np.random.Gen
 
 
 def _best_of(space: Space, trial: Float, level: Float) -> tuple[Float, Float]:
-    """Return the best point of each stencil and its margin, found with verdicts at rising levels."""
+    """Return the best point of each stencil and its margin, at least the given level, found with verdicts."""
     d, n, m = trial.shape
-    values = space.values(trial.reshape(d, -1))
-    beats = np.broadcast_to(space.beats(values, np.repeat(level, m)), n * m).reshape(n, m)
-    best, margin = trial[:, :, 0].copy(), np.full(n, -np.inf)
-    rows, columns = np.nonzero(beats & (np.cumsum(beats, axis=1) <= 12))
-    if rows.size:
-        found = space.margins_at(trial[:, rows, columns])
-        for k in np.argsort(found):
-            best[:, rows[k]], margin[rows[k]] = trial[:, rows[k], columns[k]], found[k]
+    x, owner = trial.reshape(d, -1), np.repeat(np.arange(n), m)
+    best, margin = trial[:, :, 0].copy(), level.copy()
+    while len(owner):
+        beats = space.beats(space.values(x), margin[owner])
+        x, owner = x[:, beats], owner[beats]
+        row, one = np.unique(owner, return_index=True)
+        found = space.margins_at(x[:, one])
+        better = found > margin[row]
+        best[:, row[better]], margin[row[better]] = x[:, one[better]], found[better]
+        x, owner = np.delete(x, one, axis=1), np.delete(owner, one)
     return best, margin
 
 
-def _distinct(x: Float, margin: Float, size: Float) -> NDArray[np.intp]:
+def _distinct(x: Float, margin: Float, size: Float) -> Index:
     """Return the points to go on with: none close to a better one, none ten per cent behind late."""
     keep: list[int] = []
     for k in np.argsort(-margin, kind="stable"):

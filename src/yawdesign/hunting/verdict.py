@@ -1,7 +1,8 @@
 """Whether the bogie of a problem is stable, and by what margin."""
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from yawdesign.hunting.eigenvalues import (
 )
 from yawdesign.hunting.routh import count_unstable
 from yawdesign.problem import Problem, ProblemError
+from yawdesign.problem.conditions import conditions
 from yawdesign.problem.result import Result
 from yawdesign.vehicle.elements import Link
 from yawdesign.vehicle.polynomials import Polynomial
@@ -68,6 +70,10 @@ class Stability(Result):
         Number of eigenvalues in the right half-plane.
     checked : bool
         True if Routh's array counts as many roots, and every eigenvalue is a root of the characteristic polynomial.
+    worst_condition : mapping
+        The condition under which this is so, of those of the problem: ``speed`` [m/s].
+    requirements, cases : tuple
+        What was required and reached, and the faults that were looked at: none.
     """
 
     stable: bool
@@ -81,6 +87,9 @@ class Stability(Result):
     speed: float
     unstable_roots: int
     checked: bool
+    worst_condition: Mapping[str, float] = field(default_factory=dict)
+    requirements: tuple[Any, ...] = ()
+    cases: tuple[Any, ...] = ()
 
 
 def given_damping(problem: Problem) -> float:
@@ -116,8 +125,11 @@ def least_stable(problem: Problem) -> tuple[Vehicle, Stability]:
     """Return a problem's vehicle at the speed of the least decay rate, and its stability. As in `stability`."""
     given_damping(problem)
     variables = problem.design.variables
-    results = [(vehicle, stability_at(vehicle, variables)) for vehicle in Vehicle.of(problem)]
-    return min(results, key=lambda result: (result[1].stable, result[1].decay_rate))
+    found = [
+        (vehicle, replace(stability_at(vehicle, variables), worst_condition=condition.described))
+        for condition, vehicle in zip(conditions(problem), Vehicle.of(problem), strict=True)
+    ]
+    return min(found, key=lambda pair: (pair[1].stable, pair[1].decay_rate))
 
 
 def stability_at(vehicle: Vehicle, variables: Collection[str] = ()) -> Stability:

@@ -29,6 +29,11 @@ class Condition:
         """Running speed [m/s]."""
         return dict(self.changes)["v"]
 
+    @property
+    def described(self) -> dict[str, float]:
+        """Its values by the names that a problem file uses: ``speed`` [m/s], and SI values of others."""
+        return {"speed" if name == "v" else name: float(value) for name, value in self.changes}
+
     def applied(self, p: Mapping[str, Any]) -> dict[str, Any]:
         """Return parameters with this condition in them."""
         return applied(p, self.changes)

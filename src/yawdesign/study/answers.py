@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.damper.curving import curving_limit, rotational_resistance
-from yawdesign.damper.decision import UNVERIFIED, decide
+from yawdesign.damper.decision import decide
+from yawdesign.damper.status import Status
 from yawdesign.hunting.arrays import Array, Bools
 from yawdesign.hunting.many import margins
 from yawdesign.hunting.many.critical_speeds import critical_speeds
@@ -148,7 +149,7 @@ def _design(question: Question, sets: ParameterSets) -> Answers:
     if curve is not None:
         upper = np.full(sets.size, curving_limit(sets.values, curve))
     decision = decide([(x.critical, x.unstable_roots) for x in fields], upper, others_stable)
-    status = np.where(unverified, UNVERIFIED, decision.status)
+    status = np.where(unverified, Status.UNVERIFIED, decision.status)
     C_sl = np.where(unverified, np.nan, decision.C_sl)
     if question.of == "C_sl":
         return Answers({"C_sl": C_sl, "status": status}, recomputed, unverified)

@@ -147,7 +147,11 @@ class Vehicle:
 
     def replace(self, **changes: Number) -> "Vehicle":
         """Return the vehicle with other numbers."""
-        return Vehicle(self.model, {**self.p, **{key_of(name): x for name, x in changes.items()}})
+        names = {key_of(name): value for name, value in changes.items()}
+        other = Vehicle(self.model, {**self.p, **names})
+        if names.keys() == {"C_s"}:  # in whose powers the motions are written: they are the same
+            other.__dict__["motions"] = self.motions
+        return other
 
     @property
     def C_s(self) -> Any:

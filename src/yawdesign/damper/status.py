@@ -1,0 +1,107 @@
+"""What kind of answer a forward design or an optimum is, in a word, and what to do about it."""
+
+from enum import StrEnum
+from typing import Self
+
+
+class Status(StrEnum):
+    """Kinds of answers: each is its word, as results hold it, with a message and a remedy.
+
+    Two kinds have the same word where the forward design and the optimum tell it of different things.
+
+    Attributes
+    ----------
+    message : str
+        What is the case, and what to do.
+    remedy : str
+        What to do; empty where there is nothing to do.
+
+    Examples
+    --------
+    >>> Status.STABLE_FOR_NONE == "stable for none", Status.STABLE_FOR_NONE.remedy
+    (True, 'lower the speed or the conicity, or change the suspension (optimise K_m and C_m)')
+    """
+
+    meaning: str
+    remedy: str
+
+    def __new__(cls, word: str, meaning: str, remedy: str = "") -> Self:
+        """Return a member that is its word."""
+        member = str.__new__(cls, word)
+        member._value_ = f"{word}: {meaning}"  # two kinds may have one word
+        member.meaning, member.remedy = meaning, remedy
+        return member
+
+    @classmethod
+    def _missing_(cls, value: object) -> Self | None:
+        """Return the kind of a word: where two have it, that of the forward design."""
+        return next((member for member in cls if str(member) == value), None)
+
+    OK = "ok", "the design interval (C_sl, C_su) is stable throughout"
+    STABLE_FOR_EVERY = (
+        "stable for every C_s",
+        "no yaw damping is needed for stability; the golden section starts at C_sl = 0",
+    )
+    PARTLY_UNSTABLE = (
+        "partly unstable",
+        "part of the range between the lowest stable damping and C_su is unstable",
+        "keep C_s inside the stable interval it was chosen from",
+    )
+    INFEASIBLE = (
+        "infeasible",
+        "every stable damping is above what the curve allows",
+        "allow a larger curve radius or transition, lower the speeds, or change the suspension (optimise K_m and C_m)",
+    )
+    INFEASIBLE_IN_CURVE = (
+        "infeasible in the curve",
+        "the curve's limit is exceeded even without a yaw damper",
+        "lower K_2x or b_2, or allow a larger radius or limit",
+    )
+    STABLE_FOR_NONE = (
+        "stable for none",
+        "no yaw damping makes the bogie stable",
+        "lower the speed or the conicity, or change the suspension (optimise K_m and C_m)",
+    )
+    UNDAMPED = (
+        "motor yaw undamped",
+        "a motion that no yaw damper reaches is undamped: the motors yaw on their own suspension",
+        "give K_mphi and C_mphi values above zero",
+    )
+    NO_UPPER_LIMIT = (
+        "no upper limit",
+        "stable up to any damping, and no curve is given that limits it",
+        "add `curve` to choose C_s",
+    )
+    UNVERIFIED = (
+        "unverified",
+        "two independent ways to the critical values or to the verdict differ",
+        "do not use this result; two critical values coincide, the parameters are too extreme, or a root lies on the "
+        "boundary for every C_s",
+    )
+    OPTIMAL = "optimal", "best design found within the bounds and the curve's limit"
+    UNSTABLE = (
+        "unstable",
+        "no design within the bounds is stable",
+        "lower the speed, widen the bounds or vary other parameters",
+    )
+    NO_FEASIBLE_DESIGN = (
+        "infeasible",
+        "no design within the bounds keeps the curve's limit",
+        "lower C_s or its bounds, allow a larger radius or limit, or let other parameters vary",
+    )
+    UNVERIFIED_OPTIMUM = (
+        "unverified",
+        "eigenvalues and Routh's array differ",
+        "do not use this result; the parameters are too extreme for double precision",
+    )
+
+    @property
+    def message(self) -> str:
+        """What is the case, and what to do."""
+        return self.told()
+
+    def told(self, reason: str = "") -> str:
+        """Return the message with a reason in it."""
+        text = f"{self.meaning}: {reason}" if reason else self.meaning
+        separator = "; " if ":" in text else ": "
+        return text + separator + self.remedy if self.remedy else text
