@@ -27,7 +27,8 @@ def variables(model):
 
 
 def by_eigenvalues(sets, objective):
-    s = [margins.eigenvalues(sets, name) for name in sets.model.movable(variables(sets.model))]
+    movable = sets.model.movable(variables(sets.model))
+    s = [margins.eigenvalues(sets, motion) for motion in sets.model.motions if motion.name in movable]
     return MARGINS[objective](np.concatenate(s, axis=1))
 
 
@@ -43,8 +44,10 @@ def test_margins_are_those_of_the_eigenvalues(table1, vehicle_model, objective):
 
 @pytest.mark.parametrize("objective", OBJECTIVES)
 def test_few_margins_are_left_to_the_eigenvalues(table1, vehicle_model, objective, monkeypatch):
-    sets, left, eigenvalues = drawn(table1, vehicle_model, 3000, seed=2, spread=1.3), [], margins.eigenvalues
-    monkeypatch.setattr(margins, "eigenvalues", lambda part, name: left.append(part.size) or eigenvalues(part, name))
+    sets, left, every = drawn(table1, vehicle_model, 3000, seed=2, spread=1.3), [], margins.eigenvalues
+    monkeypatch.setattr(
+        margins, "eigenvalues", lambda part, motion: left.append(part.size) or every(part, motion)
+    )
     margins.margins(sets, objective, variables(vehicle_model))
     assert sum(left) < (0.02 if objective == "decay_rate" else 0.2) * sets.size
 
@@ -117,7 +120,7 @@ def test_a_level_at_the_margin_is_doubted(table1):
 def test_stable_and_what_no_yaw_damper_reaches(table1, vehicle_model):
     sets = drawn(table1, vehicle_model, 2000, seed=6)
     stable, sure = margins.stable(sets)
-    every = [margins.eigenvalues(sets, name) for name in vehicle_model.sources]
+    every = [margins.eigenvalues(sets, motion) for motion in vehicle_model.motions]
     assert sure.all()
     assert np.array_equal(stable, np.all([s.real.max(axis=1) < 0 for s in every], axis=0))
     others, sure = margins.others_stable(sets)
@@ -159,7 +162,7 @@ def test_no_number_is_no_margin(table1):
 
 def test_more_than_one_pair_of_unstable_roots(table1):
     sets = drawn(table1, Model(), 4000, seed=7, spread=3.0)
-    s = margins.eigenvalues(sets, "coupled motion")
+    s = margins.eigenvalues(sets, sets.model.motions[0])
     chosen = np.flatnonzero(np.sum(s.real > 0, axis=1) > 2)
     assert len(chosen) > 50
     value, passed = margins.margins(sets.part(chosen), "damping_ratio", ("C_s",))

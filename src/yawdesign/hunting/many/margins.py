@@ -20,6 +20,7 @@ from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.many.tape import Tape
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.hunting.verdict import EXACT
+from yawdesign.vehicle.motions import Motion
 
 # Between which powers of ten the margins are looked for, [rad/s / 100 rad/s] and [-].
 POWERS = {"decay_rate": (-6.0, 2.0), "damping_ratio": (-6.0, 0.0)}
@@ -106,12 +107,13 @@ def margins(sets: ParameterSets, objective: str, variables: Collection[str]) -> 
     variables : collection of str
         Design variables; they decide which motions count in the margin.
     """
-    found = [_of_motion(sets, objective, name) for name in sets.model.movable(variables)]
+    movable = sets.model.movable(variables)
+    found = [_of_motion(sets, objective, motion) for motion in sets.model.motions if motion.name in movable]
     return np.min([value for value, _ in found], axis=0), np.all([passed for _, passed in found], axis=0)
 
 
-def _of_motion(sets: ParameterSets, objective: str, name: str) -> tuple[Float, Bools]:
-    p = counts.coefficients(sets.model, name, sets.zeros)(sets.values)
+def _of_motion(sets: ParameterSets, objective: str, motion: Motion) -> tuple[Float, Bools]:
+    p = counts.coefficients(sets.model, motion.name, sets.zeros)(sets.values)
     p = np.broadcast_to(p, (len(p), sets.size))
     with np.errstate(all="ignore"):
         if len(p) == 3:
@@ -120,7 +122,7 @@ def _of_motion(sets: ParameterSets, objective: str, name: str) -> tuple[Float, B
         value = MARGINS[objective](s[:, None] * TIME_UNIT)
         left = np.flatnonzero(~found)
         if len(left):
-            every = eigenvalues(sets.part(left), name)
+            every = eigenvalues(sets.part(left), motion)
             value[left] = MARGINS[objective](every)
             found[left] = _agrees(p[:, left], every)
     return value, found
@@ -261,15 +263,13 @@ def _newton(p: Float, s: Complex) -> tuple[Complex, Float]:
     return s, (np.abs(value) + ROUNDING * size) / np.abs(slope)
 
 
-def eigenvalues(sets: ParameterSets, name: str) -> Complex:
-    """Return the eigenvalues of a motion [1/s], shape (n, modes); NaN where a damper has no damping.
+def eigenvalues(sets: ParameterSets, motion: Motion) -> Complex:
+    """Return the eigenvalues of a motion of the model [1/s], shape (n, modes); NaN where a damper has no damping.
 
     Such a damper has no state of its own: where it is one among others, the vehicle is left to the single route.
     """
-    vehicle = sets.vehicle
-    (motion,) = (motion for motion in vehicle.motions if motion.name == name)
     with np.errstate(all="ignore"):
-        matrix = motion_matrix(vehicle, motion)
+        matrix = motion_matrix(sets.vehicle, motion)
     matrix = np.broadcast_to(matrix, (sets.size, *matrix.shape[-2:]))
     regular = np.isfinite(matrix).all(axis=(1, 2))
     s = np.full(matrix.shape[:2], np.nan + 0j)
