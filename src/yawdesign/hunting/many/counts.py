@@ -148,6 +148,7 @@ def _symbols(names: Iterable[str]) -> dict[str, ca.SX]:
     return {name: ca.SX.sym(name) for name in names}
 
 
+@lru_cache
 def _vehicle(model: Model, zeros: Zeros) -> Vehicle:
     """Return the vehicle whose numbers are symbols, but for those that are zero."""
     return model.at(_symbols(model.parameters) | dict.fromkeys(zeros, ca.SX(0)))
