@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from unicodedata import category
 
 from yawdesign.problem import ProblemError
+from yawdesign.problem.stopping import held
 from yawdesign.problem.whole_files import write_whole
 
 if TYPE_CHECKING:
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
 PICTURES = (".png", ".pdf", ".svg")
 ANIMATIONS = (".gif", ".svg")
+WRITTEN_BY = {".png": "agg", ".gif": "agg", ".pdf": "pdf", ".svg": "svg"}  # backends of Matplotlib
 DOTS_PER_INCH = 150
 # Whatever a user's matplotlibrc says: the texts hold Matplotlib's own mathematics, which LaTeX does not understand.
 TEXTS = {"text.usetex": False, "text.parse_math": True}
@@ -43,14 +45,17 @@ def literal(text: str) -> str:
 
 
 def check_pictures(*paths: Path | None) -> None:
-    """Raise a ProblemError if there are pictures to draw, and Matplotlib does not start."""
-    name = next((path for path in paths if path is not None), None)
-    if name is None:
-        return
-    try:
-        import_module("matplotlib.figure")
-    except Exception as error:  # noqa: BLE001 - a faulty setting of the user's shows itself in many ways
-        raise ProblemError(f"{name} cannot be drawn, Matplotlib does not start: {error}") from None
+    """Raise a ProblemError if there are pictures to draw, and Matplotlib does not start.
+
+    Requests to stop wait: in the middle of its start they would end as errors of Matplotlib.
+    """
+    for path in filter(None, paths):
+        try:
+            with held():
+                import_module("matplotlib.figure")
+                import_module(f"matplotlib.backends.backend_{WRITTEN_BY[path.suffix.lower()]}")
+        except Exception as error:  # noqa: BLE001 - a faulty setting of the user's shows itself in many ways
+            raise ProblemError(f"{path} cannot be drawn, Matplotlib does not start: {error}") from None
 
 
 def write_picture(axes: "Axes", path: Path, *, replace: bool = False) -> None:
