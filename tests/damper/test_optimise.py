@@ -55,7 +55,7 @@ def test_best_known_optima(objective, equations):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("objective", "equations"), [("decay_rate", "reciprocal"), ("damping_ratio", "as-printed")])
+@pytest.mark.parametrize(("objective", "equations"), BEST)
 def test_ten_seeds_give_one_answer(objective, equations):
     results = [yd.optimise(problem_of(objective, equations), seed=seed) for seed in range(10)]
     margins = [r.margin for r in results]

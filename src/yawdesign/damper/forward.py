@@ -21,7 +21,13 @@ ON_BOUNDARY = 1e-10  # largest residual of the scaled equations of the boundary 
 
 @dataclass(frozen=True)
 class Critical(CriticalValue):
-    """A critical value and the speed [m/s] it belongs to."""
+    """A critical value and the speed it belongs to.
+
+    Parameters
+    ----------
+    speed : float
+        Running speed [m/s].
+    """
 
     speed: float
 

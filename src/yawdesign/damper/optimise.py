@@ -41,7 +41,7 @@ class Bound:
     value, min, max : float
         In SI units; the bounds as written.
     position : float
-        Between its bounds, 0 ... 1, on the scale of the search: linear below the parameter's least usual value,
+        Between its bounds, 0 ... 1 [-], on the scale of the search: linear below the parameter's least usual value,
         geometric above.
     """
 
@@ -93,7 +93,7 @@ class Optimum(Result):
     hurwitz_positive : bool
         Whether all Hurwitz minors of eq. (10) are positive at the optimum, under every condition.
     margin_polynomial : float or None
-        The margin by Routh's array of the polynomial, found by bisection: the second route.
+        The margin by Routh's array of the polynomial, found by bisection: the second route [1/s], [-].
     checked : bool
         Whether both routes agree.
     load : str or None

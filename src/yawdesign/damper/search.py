@@ -22,6 +22,9 @@ STARTS = 20  # cells that are refined, in up to three variables; in more of them
 FIRST = 512  # points that give the cells their first levels
 OTHERS = 4900  # points in the variables other than C_s
 LINE = 72  # points along C_s
+GAIN = 1e-4  # what a cell's best must be beaten by, relative: smaller differences are left to the refinement
+MOST_LOOKS = 40  # at the points of a block; as half of them are better than any one, about ten are needed
+MOST_TRIES = 12  # the same for a stencil, where near an optimum verdicts and margins differ by rounding
 MOST_SPLIT = 9  # variables whose axes are divided into cells: their number doubles with each
 
 
@@ -72,9 +75,11 @@ def search(space: Space, seed: int, progress: Progress) -> Float:
 
 def _look(space: Space, cells: _DesignCells, x: Float) -> None:
     """Look at points in any order, and keep the best one of every cell."""
-    while x.shape[1]:
-        cell = cells.index(x)
-        x = x[:, space.beats(space.values(x), np.maximum(cells.margin[cell], -1e3))]
+    for _ in range(MOST_LOOKS):
+        level = np.maximum(cells.margin[cells.index(x)], -1e3)
+        x = x[:, space.beats(space.values(x), level + GAIN * np.abs(level))]
+        if not x.shape[1]:
+            break
         _, one = np.unique(cells.index(x), return_index=True)
         cells.offer(x[:, one], space.margins_at(x[:, one]))
         x = np.delete(x, one, axis=1)
@@ -167,9 +172,11 @@ def _best_of(space: Space, trial: Float, level: Float) -> tuple[Float, Float]:
     d, n, m = trial.shape
     x, owner = trial.reshape(d, -1), np.repeat(np.arange(n), m)
     best, margin = trial[:, :, 0].copy(), level.copy()
-    while len(owner):
+    for _ in range(MOST_TRIES):
         beats = space.beats(space.values(x), margin[owner])
         x, owner = x[:, beats], owner[beats]
+        if not len(owner):
+            break
         row, one = np.unique(owner, return_index=True)
         found = space.margins_at(x[:, one])
         better = found > margin[row]

@@ -63,7 +63,7 @@ class Stability(Result):
     modes : tuple of Mode
         The same as frequencies and damping.
     fixed_modes : mapping name -> tuple of complex
-        The roots that no design variable moves, and that of the two yaw dampers working against each other.
+        The roots [1/s] that no design variable moves, and that of the two yaw dampers working against each other.
     C_s, speed : float
         Damping of the pair of yaw dampers [N s/m] and speed [m/s] to which this belongs.
     unstable_roots : int

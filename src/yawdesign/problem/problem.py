@@ -77,11 +77,6 @@ class Problem:
         """The running speeds [m/s] in rising order; one, if no range is given."""
         return self.speed.values if isinstance(self.speed, SpeedRange) else (self.speed,)
 
-    @property
-    def model(self) -> dict[str, str]:
-        """The keywords that choose the equations: ``kind`` of the bogie and ``equations``."""
-        return {"kind": self.bogie.kind, "equations": self.equations}
-
     def replace(self, **changes: Any) -> Self:
         """Return a problem with other values.
 

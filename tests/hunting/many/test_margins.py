@@ -45,9 +45,7 @@ def test_margins_are_those_of_the_eigenvalues(table1, vehicle_model, objective):
 @pytest.mark.parametrize("objective", OBJECTIVES)
 def test_few_margins_are_left_to_the_eigenvalues(table1, vehicle_model, objective, monkeypatch):
     sets, left, every = drawn(table1, vehicle_model, 3000, seed=2, spread=1.3), [], margins.eigenvalues
-    monkeypatch.setattr(
-        margins, "eigenvalues", lambda part, motion: left.append(part.size) or every(part, motion)
-    )
+    monkeypatch.setattr(margins, "eigenvalues", lambda part, motion: left.append(part.size) or every(part, motion))
     margins.margins(sets, objective, variables(vehicle_model))
     assert sum(left) < (0.02 if objective == "decay_rate" else 0.2) * sets.size
 

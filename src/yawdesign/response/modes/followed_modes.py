@@ -35,7 +35,7 @@ class Meeting:
     Parameters
     ----------
     low, high : float
-        The meeting lies between these values of the parameter.
+        The meeting lies between these values of the parameter, in its SI unit.
     modes : tuple of str
         Who meets.
     kind : {"become a pair", "become two real roots", "pass close by", "cannot be told apart"}
@@ -65,7 +65,7 @@ class FollowedModes(Result):
     axis, unit : str
         The parameter, and its SI unit.
     values : ndarray, shape (points,)
-        Its values.
+        Its values [`unit`].
     names : tuple of str
         Of the modes: what `modes` calls each at the problem's own value of the parameter, wherever that lies (at the
         speed that `modes` takes; at the least value of the axis, if the problem has none of its own). Of a pair that
@@ -77,7 +77,7 @@ class FollowedModes(Result):
     frequency, damping_ratio : ndarray, shape (points, modes)
         [Hz], [-].
     certainty : ndarray, shape (points - 1, modes)
-        How sure each link between neighbouring points is: one minus the error of the predicted root, relative to
+        How sure each link between neighbouring points is [-]: one minus the error of the predicted root, relative to
         the error the next best root would have had; the least over all steps in between. Above 0.75 unless two modes
         meet; nan where two meet on the real axis, since what is the same root there is a convention.
     meetings : tuple of Meeting
@@ -87,7 +87,7 @@ class FollowedModes(Result):
     evaluations : int
         Number of spectra it took.
     residual : float
-        Largest backward error of the characteristic polynomial at the eigenvalues.
+        Largest backward error of the characteristic polynomial at the eigenvalues [-].
     checked : bool
         True if every eigenvalue is a root of the characteristic polynomial, and every link is sure.
     """

@@ -33,13 +33,14 @@ class NamedMode(Mode):
         Displacements [m] and angles [rad], scaled so that the largest of all displacements and of all angles times the
         half wheelbase is 1 and leads with phase zero. The motion is the real part of ``shape * exp(eigenvalue t)``.
     participation : mapping str -> float
-        Share of each coordinate (with its velocity) and of each damper's stroke in the mode: left times right
+        Share of each coordinate (with its velocity) and of each damper's stroke in the mode [-]: left times right
         eigenvector. The shares sum to 1 and do not depend on units.
     conicity : float
-        How much the root depends on the conicity, |d ln eigenvalue / d ln lambda|: 1/2 for a wheelset that rolls
+        How much the root depends on the conicity, |d ln eigenvalue / d ln lambda| [-]: 1/2 for a wheelset that rolls
         freely, 0 for what knows nothing of the wheels.
     residual : float
-        The larger of two backward errors: of the characteristic polynomial at the eigenvalue, and of the eigenvector.
+        The larger of two backward errors [-]: of the characteristic polynomial at the eigenvalue, and of the
+        eigenvector.
     """
 
     name: str

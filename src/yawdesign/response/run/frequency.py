@@ -45,8 +45,8 @@ class FrequencyResponse(Result):
     checked : bool
         True if state matrix and polynomial matrix give the same to 1e-9.
     amplitudes : mapping of str to complex or ndarray
-        By coordinate: lateral ones such as ``y_b`` [m per unit], yaw angles such as ``phi_b`` [rad per unit]. Each is
-        an attribute of the result as well, ``result.y_b``; that of a motor is None in a trailer bogie.
+        By coordinate, per unit of the input: lateral ones such as ``y_b`` [m], yaw angles such as ``phi_b`` [rad]. Each
+        is an attribute of the result as well, ``result.y_b``; that of a motor is None in a trailer bogie.
     """
 
     wavelength: Any

@@ -52,8 +52,8 @@ class Run:
     rms, peak : mapping of str to float
         Root mean square and largest size of every response in this run, in SI.
     rms_stationary : mapping of str to float, or None
-        Root mean square on an endless track of the same spectrum, by integration over the spectrum; None if the bogie
-        is unstable or the track not random.
+        Root mean square on an endless track of the same spectrum, in SI, by integration over the spectrum; None if the
+        bogie is unstable or the track not random.
     checked : bool
         True if fitted rate and eigenvalue agree to 1 %, and, in a stationary run over a random track, the root mean
         square of y_b and phi_b and the sum over their frequency responses.

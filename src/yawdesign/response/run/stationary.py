@@ -34,7 +34,7 @@ class StationaryResponse(Result):
     rms : mapping of str to float
         By response, in SI.
     rms_of : mapping of str to mapping
-        The same from "alignment" alone and from "cross_level" alone; the squares add up.
+        The same, in SI, from "alignment" alone and from "cross_level" alone; the squares add up.
     method : str
         How it was found.
     """
