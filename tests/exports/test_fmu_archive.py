@@ -236,7 +236,7 @@ def test_a_compiler_that_hangs_is_stopped(tmp_path, monkeypatch):
     script.write_text("#!/bin/sh\nsleep 600 & wait\n")
     script.chmod(0o755)
     monkeypatch.setenv("CC", str(script))
-    monkeypatch.setattr("yawdesign.exports.fmu.compiler._TIME_LIMIT", 0.5)
+    monkeypatch.setattr("yawdesign.exports.fmu.archive._TIME_LIMIT", 0.5)
     fmu = yd.write_fmu(TABLE_1, tmp_path / "bogie.fmu")
     assert fmu.platform is None
     assert "slow-cc did not finish in 0.5 s and was stopped; the FMU holds its C code only" in fmu.message

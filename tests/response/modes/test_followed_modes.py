@@ -13,8 +13,8 @@ from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.table import field_name
 from yawdesign.response.modes.eigenvectors import spectrum
-from yawdesign.response.modes.encounters import walk
 from yawdesign.response.modes.links import LOST, NEAR, PAIR, REAL, Place
+from yawdesign.response.modes.paths import walk
 from yawdesign.vehicle.vehicle import Model
 
 # Near the largest decay rate over C_s, K_m and C_m (reciprocal), where two roots all but coincide.

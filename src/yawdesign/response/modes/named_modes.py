@@ -12,8 +12,7 @@ from yawdesign.hunting.verdict import EXACT, Mode, least_stable
 from yawdesign.problem import Problem
 from yawdesign.problem.result import Result
 from yawdesign.response.modes.eigenvectors import unfold, whole_vector
-from yawdesign.response.modes.hunting_mode import hunting_root
-from yawdesign.response.modes.names import NamedRoot, named_roots, owners
+from yawdesign.response.modes.names import NamedRoot, hunting_root, named_roots, owners
 from yawdesign.vehicle.polynomials import Polynomial
 from yawdesign.vehicle.state_space import StateSpace
 from yawdesign.vehicle.vehicle import Vehicle
