@@ -244,7 +244,7 @@ def gradient() -> None:
 
 def processes(long: float) -> None:
     problem = yd.table1(equations="as-printed").replace(C_s=1e6)
-    per = 70e-6
+    per = 4e-6  # s a point
     side = int(np.sqrt(long / per))
     axes = {"K_m": np.geomspace(1e5, 5e6, side), "C_m": np.geomspace(2e3, 2e5, side)}
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
