@@ -276,7 +276,7 @@ def _margin_by_routh(space: Space, vehicles: Sequence[Vehicle], margin: float) -
     polynomials = [m.polynomial(vehicle.C_s) for vehicle in vehicles for m in vehicle.motions if m.name in movable]
 
     def exceeded(level: Float) -> Bools:
-        return np.all([np.broadcast_to(exceeds(p, level), level.shape) for p in polynomials], axis=0)
+        return np.asarray(np.all([np.broadcast_to(exceeds(p, level), level.shape) for p in polynomials], axis=0))
 
     if ratio and margin <= 0:  # the sector's scheme ends at zero
         return float("nan") if exceeded(np.zeros(1)) else margin
