@@ -227,7 +227,7 @@ def test_a_device_that_is_full():
     done = run(*CURVE, "--csv", "/dev/full", code=2)
     assert "/dev/full could not be written" in done.stderr
     assert Path("/dev/full").is_char_device()
-    command = [sys.executable, "-m", "yawdesign.cli", "sweep", str(PROBLEM), *CURVE, "--json"]
+    command = [sys.executable, "-m", "yawdesign", "sweep", str(PROBLEM), *CURVE, "--json"]
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 2

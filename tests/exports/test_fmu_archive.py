@@ -291,7 +291,7 @@ def test_a_place_that_cannot_be_written_is_named_and_left_clean(tmp_path, monkey
 @pytest.mark.parametrize("compiler", [True, False])
 def test_export_on_the_command_line(tmp_path, compiler):
     problem = Path(__file__).parents[2] / "problems" / "table1.yaml"
-    command = [sys.executable, "-m", "yawdesign.cli", "export", str(problem), "--to", "out", "--only", "fmu"]
+    command = [sys.executable, "-m", "yawdesign", "export", str(problem), "--to", "out", "--only", "fmu"]
     environment = os.environ | ({} if compiler else {"PATH": str(tmp_path), "CC": ""})
     done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
