@@ -10,7 +10,7 @@ from yawdesign.damper.curving import excess
 from yawdesign.damper.design_space import Space, fraction, scale
 from yawdesign.damper.forward import ForwardDesign, design, forward_design, others_stable, resistance
 from yawdesign.damper.nlp import Improver
-from yawdesign.damper.search import refine, search
+from yawdesign.damper.search import distinct, refine, search
 from yawdesign.damper.status import Status
 from yawdesign.hunting.arrays import Bools, Float
 from yawdesign.hunting.hurwitz import hurwitz_minors
@@ -23,12 +23,13 @@ from yawdesign.problem.table import as_seed
 from yawdesign.vehicle.polynomials import trim
 from yawdesign.vehicle.vehicle import Vehicle
 
+APART = 1e-3  # how far starts of the NLP must be from a better one
 TURNS = ((6, 1e-3), (2, 1e-5))  # number of starts of the NLP, radius of the refinement after it
 # How close the margins by two routes must be. Where two roots coalesce, as they do at many optima, an eigenvalue is
 # right to 1e-8 of its own modulus only; a hunting mode's is 10 ... 30 rad/s.
 AGREE = {"decay_rate": 2e-5, "damping_ratio": 1e-6}
 SECTIONS, LEVELS = 3, 1025  # of the margin by Routh's array: how often it is enclosed, and by how many levels
-MOST_SEARCHES = 7  # in six variables and more; what these miss, other seeds may find
+MOST_SEARCHES = 9  # in five variables and more; what these miss, other seeds may find
 ACTIVE = 1e-4  # a variable within this share of its range from a bound stands at the bound
 
 
@@ -164,13 +165,13 @@ def optimise(
 
 def _searches(space: Space) -> int:
     """Return how many independent searches are made: what one cannot sample densely, several must not miss."""
-    return min(max(1, 2 * len(space.names) - 5), MOST_SEARCHES)
+    return min(max(1, 4 * len(space.names) - 11), MOST_SEARCHES)
 
 
 def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
     """Return the best point after IPOPT and refinement in turn: each leaves the ridges on which the other stops."""
     rng, margin, improver = np.random.default_rng(seed), space.margins_at(x), Improver(space, options)
-    order = np.argsort(-margin, kind="stable")
+    order = distinct(x, margin, np.full(len(margin), APART))  # several searches find the same
     x, margin = x[:, order], margin[order]
     more = min(max(1, len(space.names) - 2), MOST_SEARCHES)  # local optima multiply with the variables
     for turn, (starts, radius) in enumerate(TURNS):

@@ -62,7 +62,7 @@ def search(space: Space, seed: int, progress: Progress) -> Float:
     """Return refined points of the cube, shape (variables, points), the best first."""
     d, rng = len(space.names), np.random.default_rng(seed)
     cells = _DesignCells.of(d)
-    first = np.concatenate([_spread(d, FIRST, rng), space.anchors], axis=1)
+    first = np.concatenate([rng.random((d, FIRST)), space.anchors], axis=1)
     cells.offer(first, space.margins_at(first))
     blocks = list(_blocks(space, rng))
     for k, x in enumerate(blocks):
@@ -86,7 +86,7 @@ def _look(space: Space, cells: _DesignCells, x: Float) -> None:
 
 
 def _blocks(space: Space, rng: np.random.Generator) -> Iterator[Float]:
-    """Yield blocks of points: a grid in up to two variables beside C_s, spread points in more; a line in C_s."""
+    """Yield blocks of points: a grid in up to two variables beside C_s, a Sobol sequence in more; a line in C_s."""
     has_damping = space.names[-1] == "C_s"
     others = len(space.names) - has_damping
     line = {0: 20_000, 1: 400}.get(others, LINE) if has_damping else 1
@@ -108,20 +108,13 @@ def _others(d: int, total: int, rng: np.random.Generator) -> Float:
     if d == 0:
         return np.zeros((0, 1))
     if d > 2:
-        return _spread(d, 1 << (total - 1).bit_length(), rng)
+        from scipy.stats import qmc  # takes longer to import than a search in up to three variables
+
+        return np.asarray(qmc.Sobol(d, rng=rng).random(1 << (total - 1).bit_length()).T)
     n = round(total ** (1 / d)) if d == 2 else min(total, 2000)
     axes = np.meshgrid(*[np.linspace(0, 1, n)] * d, indexing="ij")
     jitter = rng.random((d, 1)) - 0.5
     return np.clip(np.stack([axis.ravel() for axis in axes]) + jitter / n, 0, 1)
-
-
-def _spread(d: int, total: int, rng: np.random.Generator) -> Float:
-    """Return points that leave no large part of the cube empty: multiples of irrational steps, from a random start."""
-    ratio = 2.0  # becomes the root of x^(d + 1) = x + 1, for d = 1 the golden section
-    for _ in range(60):
-        ratio = (1 + ratio) ** (1 / (d + 1))
-    steps = np.outer(ratio ** -np.arange(1.0, d + 1), np.arange(total))
-    return np.asarray((rng.random((d, 1)) + steps) % 1)
 
 
 def refine(
@@ -155,7 +148,7 @@ def refine(
         step[:, k] = np.where(won, better - x[:, k], step[:, k] * 0.5)
         x[:, k], margin[k] = np.where(won, better, x[:, k]), np.where(won, value, margin[k])
         size[k] = np.where(won, np.minimum(1.5 * size[k], 0.2), 0.7 * size[k])
-        keep = _distinct(x, margin, size)
+        keep = distinct(x, margin, size)
         x, margin, size, step = x[:, keep], margin[keep], size[keep], step[:, keep]
     return x[:, np.argsort(-margin, kind="stable")]
 
@@ -185,7 +178,7 @@ def _best_of(space: Space, trial: Float, level: Float) -> tuple[Float, Float]:
     return best, margin
 
 
-def _distinct(x: Float, margin: Float, size: Float) -> Index:
+def distinct(x: Float, margin: Float, size: Float) -> Index:
     """Return the points to go on with: none close to a better one, none ten per cent behind late."""
     keep: list[int] = []
     for k in np.argsort(-margin, kind="stable"):
