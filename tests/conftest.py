@@ -194,16 +194,6 @@ def vehicle_named(vehicle_of_case):
 
 
 @pytest.fixture(scope="session")
-def case_named(of_case):
-    """Return the exact parameters and the model of the reference bogie with a name."""
-
-    def find(name):
-        return of_case(next(c for c in CASES if c["name"] == name), exact=True)
-
-    return find
-
-
-@pytest.fixture(scope="session")
 def random_bogies():
     """Return n bogies around Table I: each parameter times or divided by up to `spread`, 150 to 450 km/h."""
 
