@@ -117,7 +117,8 @@ def _of_motion(sets: ParameterSets, objective: str, motion: Motion) -> tuple[Flo
     p = np.broadcast_to(p, (len(p), sets.size))
     with np.errstate(all="ignore"):
         if len(p) == 3:
-            return MARGINS[objective](_both_roots(p) * TIME_UNIT), np.ones(sets.size, dtype=bool)
+            value = MARGINS[objective](_both_roots(p) * TIME_UNIT)
+            return value, np.isfinite(value)
         s, found = _slowest(p) if objective == "decay_rate" else _least_damped(p)
         value = MARGINS[objective](s[:, None] * TIME_UNIT)
         left = np.flatnonzero(~found)
