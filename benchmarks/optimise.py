@@ -14,7 +14,8 @@ from scipy.optimize import differential_evolution
 
 import yawdesign as yd
 from yawdesign.damper.curving import curving_limit
-from yawdesign.hunting.old import core_matrix
+from yawdesign.hunting.eigenvalues import motion_matrix
+from yawdesign.vehicle.vehicle import Model
 
 
 def problem(objective: str, equations: str, seed: int | None = None) -> yd.Problem:
@@ -35,11 +36,12 @@ def problem(objective: str, equations: str, seed: int | None = None) -> yd.Probl
 
 
 def margin_of(task: yd.Problem) -> Callable[[np.ndarray], np.ndarray]:
-    p = {**task.bogie.parameters(), "v": task.speeds[0]}
+    p, model = {**task.bogie.parameters(), "v": task.speeds[0]}, Model.of(task)
+    coupled = model.motions[0]
 
     def negative_margin(x: np.ndarray) -> np.ndarray:
         C_s, K_m, C_m = np.exp(x)
-        s = np.linalg.eigvals(core_matrix({**p, "K_m": K_m, "C_m": C_m}, C_s, kind="power", equations=task.equations))
+        s = np.linalg.eigvals(motion_matrix(model.at({**p, "C_s": C_s, "K_m": K_m, "C_m": C_m}), coupled))
         measure = -s.real if task.design.objective == "decay_rate" else -s.real / np.abs(s)
         return -measure.min(axis=-1)
 
