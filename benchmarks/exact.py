@@ -18,14 +18,15 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from yawdesign.study.question import Question
 
 import yawdesign as yd
 from yawdesign.hunting.certificate import Certificate, certify
-from yawdesign.hunting.old import critical_damping
+from yawdesign.hunting.critical_damping import critical_damping
 from yawdesign.study.answers import evaluate
+from yawdesign.study.request import Question
+from yawdesign.vehicle.vehicle import Model, Vehicle
 
-MODELS = (("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal"))
+MODELS = (Model("power", "as-printed"), Model("power", "reciprocal"), Model("trailer", "reciprocal"))
 TABLE_1 = {name: float(x) for name, x in yd.table1().bogie.parameters().items() if name != "C_s" and x is not None}
 TRAILER = {
     name: float(x)
@@ -37,87 +38,86 @@ LOW_DAMPING = ("C_m", "C_t", "C_mphi")
 VERDICTS = ("right", "wrong", "missed", "invented", "unverified")
 CLOSE = 1e-8
 
-Bogie = tuple[dict[str, float], dict[str, str]]
 
-
-def random_bogie(rng: np.random.Generator, spread: float) -> Bogie:
-    kind, equations = MODELS[rng.integers(len(MODELS))]
-    base = TRAILER if kind == "trailer" else TABLE_1
+def random_bogie(rng: np.random.Generator, spread: float) -> Vehicle:
+    model = MODELS[rng.integers(len(MODELS))]
+    base = TRAILER if model.kind == "trailer" else TABLE_1
     p = {name: x * spread ** rng.uniform(-1, 1) for name, x in base.items()}
-    return {**p, "v": rng.uniform(100, 450) / 3.6}, {"kind": kind, "equations": equations}
+    return model.at(p, v=rng.uniform(100, 450) / 3.6)
 
 
-def wide(rng: np.random.Generator) -> Iterator[Bogie]:
+def wide(rng: np.random.Generator) -> Iterator[Vehicle]:
     while True:
-        p, model = random_bogie(rng, (1.5, 3.0, 10.0)[rng.integers(3)])
-        zeros = [name for name in MAY_BE_ZERO if name in p and rng.random() < 0.02]
-        yield {**p, **dict.fromkeys(zeros, 0.0)}, model
+        vehicle = random_bogie(rng, (1.5, 3.0, 10.0)[rng.integers(3)])
+        zeros = [name for name in MAY_BE_ZERO if name in vehicle.p and rng.random() < 0.02]
+        yield vehicle.replace(**dict.fromkeys(zeros, 0.0))
 
 
-def undamped(rng: np.random.Generator) -> Iterator[Bogie]:
+def undamped(rng: np.random.Generator) -> Iterator[Vehicle]:
     while True:
-        p, model = random_bogie(rng, 3.0)
-        low = {name: p[name] * 10 ** rng.uniform(-8, -1) for name in LOW_DAMPING if name in p and rng.random() < 0.7}
-        yield {**p, **low}, model
+        vehicle = random_bogie(rng, 3.0)
+        low = {
+            name: vehicle.p[name] * 10 ** rng.uniform(-8, -1)
+            for name in LOW_DAMPING
+            if name in vehicle.p and rng.random() < 0.7
+        }
+        yield vehicle.replace(**low)
 
 
-def folds(rng: np.random.Generator) -> Iterator[Bogie]:
+def folds(rng: np.random.Generator) -> Iterator[Vehicle]:
     """Yield bogies at which two critical values are apart by anything between rounding and a hundredth."""
     while True:
-        p, model = random_bogie(rng, 3.0)
-        name = rng.choice([x for x in p if x not in ("W", "b_0")])
-        values = p[name] * np.geomspace(0.5, 2, 40)
-        counts = _counts({**p, name: values}, model)
+        vehicle = random_bogie(rng, 3.0)
+        name = rng.choice([x for x in vehicle.p if x not in ("W", "b_0")])
+        values = vehicle.p[name] * np.geomspace(0.5, 2, 40)
+        counts = _counts(vehicle.replace(**{name: values}))
         for k in np.flatnonzero(np.abs(np.diff(counts)) == 2)[:2]:
             distance = 10 ** rng.uniform(-16, -4)
-            fold = _fold(p, name, (values[k], values[k + 1]), counts[k], model, distance / 4)
+            fold = _fold(vehicle, name, (values[k], values[k + 1]), counts[k], distance / 4)
             more = math.copysign(1.0, (values[k] - values[k + 1]) * (counts[k] - counts[k + 1]))
-            near = fold * (1 + more * distance)
-            found = critical_damping({**p, name: near}, **model).critical
-            if any(b.C_s < 1.1 * a.C_s for a, b in pairwise(found)):
-                yield {**p, name: float(near)}, model
+            near = vehicle.replace(**{name: float(fold * (1 + more * distance))})
+            if any(b.C_s < 1.1 * a.C_s for a, b in pairwise(critical_damping(near).critical)):
+                yield near
 
 
-def _fold(
-    p: dict[str, float], name: str, ends: tuple[float, float], count: int, model: dict[str, str], close: float
-) -> float:
+def _fold(vehicle: Vehicle, name: str, ends: tuple[float, float], count: int, close: float) -> float:
     """Return where the number of critical values changes, to a relative distance or rounding."""
     low, high = ends
     while abs(high - low) > max(close, 3e-16) * abs(low):
         middle = (low + high) / 2
-        low, high = (middle, high) if _counts({**p, name: middle}, model)[0] == count else (low, middle)
+        low, high = (middle, high) if _counts(vehicle.replace(**{name: middle}))[0] == count else (low, middle)
     return (low + high) / 2
 
 
-def _counts(p: dict[str, Any], model: dict[str, str]) -> np.ndarray:
-    return np.asarray(_together(p, model).columns["count"])
+def _counts(vehicle: Vehicle) -> np.ndarray:
+    return np.asarray(_together(vehicle).columns["count"])
 
 
-def _together(p: dict[str, Any], model: dict[str, str]) -> Any:
-    return evaluate(Question("critical", model["kind"], model["equations"], (1.0,)), p)
+def _together(vehicle: Vehicle) -> Any:
+    return evaluate(Question("critical", vehicle.model), vehicle.p)
 
 
 KINDS = {"wide": wide, "nearly undamped": undamped, "at a fold": folds}
 
 
-def alone(bogies: Sequence[Bogie]) -> list[tuple[list[float], list[int], bool]]:
-    answers = [critical_damping(p, **model) for p, model in bogies]
+def alone(bogies: Sequence[Vehicle]) -> list[tuple[list[float], list[int], bool]]:
+    answers = [critical_damping(vehicle) for vehicle in bogies]
     return [([x.C_s for x in a.critical], list(a.unstable_roots), a.checked) for a in answers]
 
 
-def among_many(bogies: Sequence[Bogie]) -> list[tuple[list[float], list[int], bool]]:
+def among_many(bogies: Sequence[Vehicle]) -> list[tuple[list[float], list[int], bool]]:
     """Return the same from arrays, those of one model together."""
     answers: dict[int, tuple[list[float], list[int], bool]] = {}
-    for kind, equations in MODELS:
-        chosen = [k for k, (_, m) in enumerate(bogies) if (m["kind"], m["equations"]) == (kind, equations)]
+    for model in MODELS:
+        chosen = [k for k, vehicle in enumerate(bogies) if vehicle.model == model]
         if not chosen:
             continue
-        p = {name: np.array([bogies[k][0][name] for k in chosen]) for name in bogies[chosen[0]][0]}
+        p = {name: np.array([bogies[k].p[name] for k in chosen]) for name in bogies[chosen[0]].p}
         # A parameter that is zero at some points only has no polynomial of lower degree: those points by themselves.
         zero = np.any([x == 0 for x in p.values()], axis=0)
         for part in [~zero, *(np.arange(len(chosen)) == k for k in np.flatnonzero(zero))]:
             if part.any():
-                found = _together({name: x[part] for name, x in p.items()}, {"kind": kind, "equations": equations})
+                found = _together(model.at({name: x[part] for name, x in p.items()}))
                 for row, k in enumerate(np.array(chosen)[part]):
                     answers[int(k)] = _row(found, row)
     return [answers[k] for k in range(len(bogies))]
@@ -128,10 +128,10 @@ def _row(found: Any, k: int) -> tuple[list[float], list[int], bool]:
     return values[~np.isnan(values)].tolist(), counts[~np.isnan(counts)].astype(int).tolist(), not found.unverified[k]
 
 
-def proved(p: dict[str, float], model: dict[str, str]) -> Certificate | None:
+def proved(vehicle: Vehicle) -> Certificate | None:
     """Return the exact answer, or nothing where a root stays on the imaginary axis for every C_s (zero springs)."""
     try:
-        return certify(p, **model)
+        return certify(vehicle)
     except ArithmeticError:
         return None
 
@@ -153,7 +153,7 @@ def campaign(kind: str, n: int, seed: int) -> dict[str, Counter[str]]:
     """Return how many of n bogies of a kind are judged how, asked alone and among many."""
     source = KINDS[kind](np.random.default_rng([seed, list(KINDS).index(kind)]))
     bogies = [next(source) for _ in range(n)]
-    exact = [proved(p, model) for p, model in bogies]
+    exact = [proved(vehicle) for vehicle in bogies]
     ways = {"alone": alone(bogies), "among many": among_many(bogies)}
     return {way: Counter(judged(a, e) for a, e in zip(answers, exact, strict=True)) for way, answers in ways.items()}
 

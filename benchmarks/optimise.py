@@ -36,12 +36,12 @@ def problem(objective: str, equations: str, seed: int | None = None) -> yd.Probl
 
 
 def margin_of(task: yd.Problem) -> Callable[[np.ndarray], np.ndarray]:
-    model, p = Model.of(task), {**task.bogie.parameters(), "v": task.speeds[0]}
+    p, model = {**task.bogie.parameters(), "v": task.speeds[0]}, Model.of(task)
     coupled = model.motions[0]
 
     def negative_margin(x: np.ndarray) -> np.ndarray:
         C_s, K_m, C_m = np.exp(x)
-        s = np.linalg.eigvals(motion_matrix(model.at(p, C_s=C_s, K_m=K_m, C_m=C_m), coupled))
+        s = np.linalg.eigvals(motion_matrix(model.at({**p, "C_s": C_s, "K_m": K_m, "C_m": C_m}), coupled))
         measure = -s.real if task.design.objective == "decay_rate" else -s.real / np.abs(s)
         return -measure.min(axis=-1)
 

@@ -15,19 +15,20 @@ from typing import Any
 import control
 import numpy as np
 from scipy.optimize import brentq
-from yawdesign.study.question import Question
 
 import yawdesign as yd
 from yawdesign.hunting.boundary import critical_damping as critical_function
 from yawdesign.hunting.boundary import parameter_names
-from yawdesign.hunting.many import compiled
-from yawdesign.hunting.many import counts as kernels
-from yawdesign.hunting.old import certify, core_matrix, critical_damping, state_matrix
+from yawdesign.hunting.certificate import certify
+from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.hunting.eigenvalues import MARGINS, motion_eigenvalues, state_matrix
+from yawdesign.hunting.many import compiled, counts
 from yawdesign.study.answers import evaluate
-from yawdesign.vehicle.old import characteristic
+from yawdesign.study.request import Question
 from yawdesign.vehicle.polynomials import add, even_odd, multiply, scale, scale_variable
+from yawdesign.vehicle.vehicle import Model
 
-MODEL = {"kind": "power", "equations": "as-printed"}
+MODEL = Model(equations="as-printed")
 SPEED = 300 / 3.6
 
 
@@ -37,7 +38,7 @@ def table1() -> dict[str, float]:
 
 
 def question(of: str) -> Question:
-    return Question(of, MODEL["kind"], MODEL["equations"], (SPEED,))
+    return Question(of, MODEL)
 
 
 def seconds(work: Callable[[], Any], repeat: int = 3) -> tuple[float, Any]:
@@ -66,12 +67,12 @@ def some(p: Mapping[str, Any], n: int) -> dict[str, Any]:
 def without_compiler(work: Callable[[], Any]) -> Any:
     """Run with plain NumPy: no compiler is found, and no tape has compiled code."""
     find, compiled._compiler = compiled._compiler, lambda: None
-    kernels.verdicts.cache_clear()
+    counts.verdicts.cache_clear()
     try:
         return work()
     finally:
         compiled._compiler = find
-        kernels.verdicts.cache_clear()
+        counts.verdicts.cache_clear()
 
 
 def verdicts(points: int) -> None:
@@ -82,7 +83,7 @@ def verdicts(points: int) -> None:
     evaluate(question("stable"), p)
     fast_time, fast = seconds(lambda: evaluate(question("stable"), p), 5)
     sample = min(points, 20_000)
-    A = state_matrix(some(p, sample), p["C_s"][:sample], **MODEL)
+    A = state_matrix(MODEL.at(some(p, sample)))
     eig_time, _ = seconds(lambda: np.linalg.eigvals(A))
     few = min(sample, 2000)
     control_time, poles = seconds(
@@ -90,7 +91,7 @@ def verdicts(points: int) -> None:
     )
 
     def filled_and_solved() -> list[Any]:
-        own = [state_matrix(q, q["C_s"], **MODEL) for q in parts(p, 200)]
+        own = [state_matrix(MODEL.at(q)) for q in parts(p, 200)]
         return [control.ss(a, np.zeros((25, 1)), np.zeros((1, 25)), 0).poles() for a in own]
 
     filled_time, _ = seconds(filled_and_solved, 1)
@@ -112,7 +113,7 @@ def differences(p: Mapping[str, Any], points: int, stable: np.ndarray) -> str:
     near: list[float] = []
     for first in range(0, points, 20_000):
         part = {name: x[first : first + 20_000] for name, x in p.items()}
-        s = np.linalg.eigvals(state_matrix(part, part["C_s"], **MODEL))
+        s = np.linalg.eigvals(state_matrix(MODEL.at(part)))
         abscissa = s.real.max(axis=1)
         near += list(np.abs(abscissa[(abscissa < 0) != stable[first : first + 20_000]]))
     return f"{len(near)} of {points} differ" + (f", |Re| at most {max(near):.1e} 1/s" if near else "")
@@ -125,22 +126,29 @@ def grid(n: int) -> dict[str, Any]:
     return p | {"K_m": omega**2 * p["M_m"], "C_m": 2 * xi_m * omega * p["M_m"]}
 
 
+COUPLED = MODEL.at(table1()).coupled  # which coordinates move in it is found once: a competitor need not do it again
+
+
+def spectral_abscissa(p: Mapping[str, Any], C_s: Any) -> np.ndarray:
+    """Return the largest real part of the coupled motion."""
+    return np.asarray(motion_eigenvalues(MODEL.at(p, C_s=C_s), COUPLED).real.max(axis=-1))
+
+
 def scan_and_brentq(p: Mapping[str, float]) -> list[float]:
     """Return the critical values as one would find them: the spectral abscissa at 60 dampings, brentq between."""
 
     def abscissa(x: float) -> float:
-        return float(np.linalg.eigvals(core_matrix(p, np.exp(x), **MODEL)).real.max())
+        return float(spectral_abscissa(p, np.exp(x)))
 
     places = np.linspace(np.log(1e3), np.log(1e8), 60)
-    stacked = np.linalg.eigvals(core_matrix(p, np.exp(places), **MODEL)).real.max(axis=-1)
+    stacked = spectral_abscissa(p, np.exp(places))
     changes = np.flatnonzero(stacked[:-1] * stacked[1:] < 0)
     return [float(np.exp(brentq(abscissa, places[k], places[k + 1], xtol=1e-10))) for k in changes]
 
 
 def companion(p: Mapping[str, Any]) -> np.ndarray:
     """Return the roots of the polynomial in w^2 of all points, from stacked companion matrices."""
-    c = characteristic(p, **MODEL)
-    A, B = scale_variable(c.A, 100.0), scale_variable(c.B, 100.0)
+    A, B = (scale_variable(part, 100.0) for part in MODEL.at(p).coupled.coefficients)
     (ea, oa), (eb, ob) = even_odd(A), even_odd(B)
     F = np.stack(np.broadcast_arrays(*add(multiply(eb, oa), scale(multiply(ea, ob), -1))), axis=-1)
     matrices = np.zeros((len(F), F.shape[1] - 1, F.shape[1] - 1))
@@ -166,7 +174,7 @@ def criticals(exact: int) -> None:
     companion_time, _ = seconds(lambda: companion(sample))
     line("the same", f"{per * 1e6:.2f}", "batched companion eigenvalues", f"{companion_time / 4000 * 1e6:.0f}",
          f"{companion_time / 4000 / per:.1f}", f"recomputed {own.recomputed.sum()}, unverified {own.unverified.sum()}")  # fmt: skip
-    certified = [certify(q, **MODEL) for q in points]
+    certified = [certify(MODEL.at(q)) for q in points]
     right = sum(len(c.critical) == count for c, count in zip(certified, counts, strict=True))
     worst = max(
         (abs(x.C_s / y - 1) for c, k in zip(certified, chosen, strict=True)
@@ -192,11 +200,29 @@ def growth() -> None:
         )
 
 
+def margins_of_a_map(side: int) -> None:
+    """Compare margins by verdicts and Newton's method with those of stacked eigenvalues, in one thread each."""
+    C_s, conicity = np.meshgrid(np.geomspace(1e4, 1e7, side), np.linspace(0.05, 0.4, side), indexing="ij")
+    for model in (MODEL, Model()):
+        p = table1() | {"C_s": C_s.ravel(), "lambda": conicity.ravel()}
+        for of, measure in MARGINS.items():
+            asked = Question(of, model, variables=("C_s", "K_m", "C_m"))
+            evaluate(asked, p, threads=1)
+            own_time, own = seconds(lambda asked=asked, p=p: evaluate(asked, p, threads=1))
+            sample = np.arange(0, side**2, max(1, side**2 // 20_000))
+            vehicle = model.at({name: x[sample] if np.ndim(x) else x for name, x in p.items()})
+            eig_time, s = seconds(lambda vehicle=vehicle: motion_eigenvalues(vehicle, vehicle.coupled), 1)
+            error = np.max(np.abs(own.columns[of][sample] / measure(s) - 1))
+            per, other = own_time / side**2 * 1e6, eig_time / len(sample) * 1e6
+            line(f"{of} on {side} x {side}, {model.equations}", f"{per:.2f}", "stacked eigenvalues", f"{other:.1f}",
+                 f"{other / per:.0f}", f"to {error:.0e}, recomputed {own.recomputed.sum()}; {own_time:.1f} s")  # fmt: skip
+
+
 def gradient() -> None:
     p = table1()
-    (x,) = critical_damping(p, **MODEL).critical
+    (x,) = critical_damping(MODEL.at(p)).critical
     names = parameter_names(p)
-    f, values = critical_function(names, MODEL["kind"], MODEL["equations"]), list(p.values())
+    f, values = critical_function(MODEL, names), list(p.values())
     first = f.factory("first", ["p", "C_s", "omega"], ["C_s_critical", "residual", "gradient"])
     own_time, solved = seconds(lambda: [first(values, x.C_s, x.omega) for _ in range(200)][-1])
     base = np.array(values)
@@ -204,7 +230,7 @@ def gradient() -> None:
     def by_differences() -> np.ndarray:
         def solve(v: np.ndarray) -> float:
             q = dict(zip(names, v, strict=True))
-            return brentq(lambda C: np.linalg.eigvals(core_matrix(q, C, **MODEL)).real.max(), 6e4, 1.4e5, xtol=1e-8)
+            return brentq(lambda C_s: float(spectral_abscissa(q, C_s)), 6e4, 1.4e5, xtol=1e-8)
 
         steps = np.diag(1e-5 * base)
         return np.array([(solve(base + h) - solve(base - h)) / (2 * h.sum()) for h in steps])
@@ -218,7 +244,7 @@ def gradient() -> None:
 
 def processes(long: float) -> None:
     problem = yd.table1(equations="as-printed").replace(C_s=1e6)
-    per = 70e-6
+    per = 4e-6  # s a point
     side = int(np.sqrt(long / per))
     axes = {"K_m": np.geomspace(1e5, 5e6, side), "C_m": np.geomspace(2e3, 2e5, side)}
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
@@ -247,6 +273,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--points", type=int, default=1_000_000, help="random points of the verdicts")
     parser.add_argument("--exact", type=int, default=1000, help="points of the grid checked in exact rationals")
+    parser.add_argument("--side", type=int, default=755, help="points along each axis of the map of margins")
     parser.add_argument("--long", type=float, default=40.0, help="seconds of the work that is shared by processes")
     arguments = parser.parse_args()
     line("work", "us a point", "against", "us a point", "ratio", "agreement")
@@ -254,6 +281,7 @@ def main() -> None:
     verdicts(arguments.points)
     criticals(arguments.exact)
     growth()
+    margins_of_a_map(arguments.side)
     gradient()
     processes(arguments.long)
 

@@ -9,6 +9,8 @@ import flint
 import numpy as np
 import pytest
 
+from yawdesign.vehicle.vehicle import Model
+
 CASES = json.loads((Path(__file__).parent / "data" / "cases.json").read_text(encoding="utf-8"))["cases"]
 TABLE_1 = CASES[0]["bogie"]
 MODELS = [("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal")]
@@ -23,13 +25,15 @@ def pytest_configure():
 
 
 def pytest_generate_tests(metafunc):
-    """Run a test that asks for `case` on every reference bogie, one that asks for `model` on all three models."""
+    """Run a test that asks for `case` on every reference bogie, one that asks for a model on all three models."""
     if "case" in metafunc.fixturenames:
         names = [f"{c['name']}-{c['equations']}-{c['kind']}" for c in CASES]
         metafunc.parametrize("case", CASES, ids=names)
     if "model" in metafunc.fixturenames:
         models = [{"kind": kind, "equations": equations} for kind, equations in MODELS]
         metafunc.parametrize("model", models, ids=[" ".join(m) for m in MODELS])
+    if "vehicle_model" in metafunc.fixturenames:
+        metafunc.parametrize("vehicle_model", [Model(*m) for m in MODELS], ids=[" ".join(m) for m in MODELS])
 
 
 # What may come into a text by mistake or on purpose.
@@ -169,11 +173,22 @@ def of_case():
 
 
 @pytest.fixture(scope="session")
-def case_named(of_case):
-    """Return the exact parameters and the model of the reference bogie with a name."""
+def vehicle_of_case(of_case):
+    """Return the vehicle of a reference bogie, with its yaw damping."""
+
+    def vehicle(case, *, exact=False):
+        p, model = of_case(case, exact=exact)
+        return Model(**model).at(p, C_s=case["C_s"])
+
+    return vehicle
+
+
+@pytest.fixture(scope="session")
+def vehicle_named(vehicle_of_case):
+    """Return the vehicle of the reference bogie with a name, as exactly as it is written."""
 
     def find(name):
-        return of_case(next(c for c in CASES if c["name"] == name), exact=True)
+        return vehicle_of_case(next(c for c in CASES if c["name"] == name), exact=True)
 
     return find
 
@@ -190,6 +205,27 @@ def random_bogies():
             yield {**p, "v": rng.uniform(150, 450) / 3.6}, {"kind": kind, "equations": equations}
 
     return draw
+
+
+@pytest.fixture(scope="session")
+def random_vehicles(random_bogies):
+    """Return n vehicles around Table I, without yaw damping: each parameter times or divided by up to `spread`."""
+
+    def draw(n, *, spread=3.0, seed=1):
+        for p, model in random_bogies(n, spread=spread, seed=seed):
+            yield Model(**model).at(p)
+
+    return draw
+
+
+@pytest.fixture(scope="session")
+def rational_vehicle(rational):
+    """Return a vehicle in exact rationals: each double's own value."""
+
+    def convert(vehicle):
+        return vehicle.model.at(rational(vehicle.p))
+
+    return convert
 
 
 @pytest.fixture(scope="session")

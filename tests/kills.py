@@ -17,11 +17,9 @@ import numpy as np
 
 import yawdesign as yd
 from yawdesign import cli
-from yawdesign.output import plots, study_files, study_plots, study_tables, targets  # noqa: F401 - before the forks
-from yawdesign.problem import ProblemError, stopping, writing
-from yawdesign.study import executors as chunks
-from yawdesign.study import kept_file as keeping
-from yawdesign.study import sweep
+from yawdesign.output import plots, sweep_files, sweep_plots, sweep_tables, targets  # noqa: F401 - before the forks
+from yawdesign.problem import ProblemError, stopping, whole_files
+from yawdesign.study import executors, kept_file, sweep
 from yawdesign.study.kept_file import KeptFile
 from yawdesign.study.request import request
 from yawdesign.study.store import Store
@@ -65,9 +63,9 @@ class Trial:
             err = os.open("../stderr", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
             os.dup2(out, 1)
             os.dup2(err, 2)
-            chunks.HERE, sweep.SAVE_EVERY = CHUNK, self.save_every
+            executors.HERE, sweep.SAVE_EVERY = CHUNK, self.save_every
             tell(Store, "put", told, lambda store, *_: f"finished {store.finished.sum()}")
-            tell(keeping, "_write", told, lambda path, asked, store, **_: f"kept {store.finished.sum()}")
+            tell(kept_file, "_write", told, lambda path, asked, store, **_: f"kept {store.finished.sum()}")
             if at:
                 kill_at(at, number, str(self.folder), told)
             sys.argv = ["yawdesign", *self.arguments()]
@@ -123,7 +121,7 @@ def kill_at(at, number, folder, told):
         return isinstance(x, (str, bytes, os.PathLike)) and str(Path(os.fsdecode(x)).absolute()).startswith(folder)
 
     synchronise = os.fsync
-    writing.os.fsync = lambda number: (step("fsync"), synchronise(number))
+    whole_files.os.fsync = lambda number: (step("fsync"), synchronise(number))
     sys.addaudithook(hook)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 PROBLEM = Path(__file__).parents[1] / "problems" / "table1.yaml"
-YAWDESIGN = f"{sys.executable} -m yawdesign.cli"
+YAWDESIGN = f"{sys.executable} -m yawdesign"
 SWEEP = f"{YAWDESIGN} sweep {PROBLEM} --of stable --over v=70:80:2"
 
 pytestmark = pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")

@@ -227,7 +227,7 @@ def test_a_device_that_is_full():
     done = run(*CURVE, "--csv", "/dev/full", code=2)
     assert "/dev/full could not be written" in done.stderr
     assert Path("/dev/full").is_char_device()
-    command = [sys.executable, "-m", "yawdesign.cli", "sweep", str(PROBLEM), *CURVE, "--json"]
+    command = [sys.executable, "-m", "yawdesign", "sweep", str(PROBLEM), *CURVE, "--json"]
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 2
@@ -247,14 +247,14 @@ def whole_sweep(name):
 @pytest.mark.parametrize(
     ("where", "name"),
     [
-        ("yawdesign.study.labelled_data", "_rows"),
+        ("yawdesign.study.labelled_data", "LabelledData._lines"),
         ("yawdesign.study.store", "write_arrays"),
         ("yawdesign.study.kept_file", "_write"),
         ("yawdesign.study.sweep", "gathered"),
         ("yawdesign.study.sweep", "_boundary"),
         ("yawdesign.output.sweep_files", "draw"),
-        ("yawdesign.output.plots", "write_whole"),
-        ("yawdesign.cli", "_show_sweep"),
+        ("yawdesign.output.pictures", "write_whole"),
+        ("yawdesign.cli.sweeps", "show"),
         ("numpy", "savez_compressed"),
         ("numpy.lib.format", "write_array"),
         ("zipfile", "ZipFile.close"),

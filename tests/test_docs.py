@@ -56,6 +56,12 @@ def test_links_are_found():
     assert links("[a](b.md) `[c](d)` [`e`](f.md#g)\n```\n[h](i)\n```\n![j](k.png)") == ["b.md", "f.md#g", "k.png"]
 
 
+@every_page
+def test_modules_that_a_page_names_are_there(page):
+    for name in re.findall(r"`((?:[a-z_]+/)+[a-z_]+\.pyi?)`", page.read_text(encoding="utf-8")):
+        assert (ROOT / name).exists() or (ROOT / "src" / "yawdesign" / name).exists(), name
+
+
 def python_of(page):
     return re.findall(r"^```python\n(.*?)^```", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
 

@@ -44,9 +44,10 @@ def test_designs_are_verified(exact, kind):
     """The verdict at the chosen damping too: eigenvalues must not fail where the critical values are known."""
     source, n = exact.KINDS[kind](np.random.default_rng(8)), max(1, int(SHARE * SIZES[kind] / 2))
     unverified = 0
-    for p, model in (next(source) for _ in range(n)):
-        base = yd.table1(**({"kind": "trailer"} if model["kind"] == "trailer" else {"equations": model["equations"]}))
-        p = dict(p)
+    for vehicle in (next(source) for _ in range(n)):
+        model = vehicle.model
+        base = yd.table1(**({"kind": "trailer"} if model.kind == "trailer" else {"equations": model.equations}))
+        p = dict(vehicle.p)
         design = yd.design(base.replace(speed=p.pop("v"), **p))
         unverified += design.status == "unverified"
     assert unverified <= max(UNVERIFIED[kind] * n, 1)
@@ -60,7 +61,7 @@ def test_a_few_of_each_kind(exact, kind):
 
 def test_the_judge_sees_what_is_wrong(exact):
     source = exact.wide(np.random.default_rng(6))
-    proved = next(x for x in (exact.proved(*bogie) for bogie in source) if x and len(x.critical) == 1)
+    proved = next(x for x in (exact.proved(vehicle) for vehicle in source) if x and len(x.critical) == 1)
     value, counts = proved.critical[0].C_s, list(proved.unstable_roots)
     assert exact.judged(([value], counts, True), proved) == "right"
     assert exact.judged(([value * (1 + 1e-7)], counts, True), proved) == "wrong"

@@ -170,11 +170,11 @@ def test_every_status_tells_what_to_do():
     """A word leads back to its kind; where there is something to do, the message says so."""
     assert len(Status) == 13
     for status in Status:
-        assert Status(str(status)) == status
+        assert Status.named(str(status)) == status
         assert status.message.startswith(status.meaning)
         assert status.message.endswith(status.remedy)
         assert status.told("a reason").startswith(f"{status.meaning}: a reason")
-    unequal = {status for status in Status if Status(str(status)) is not status}
+    unequal = {status for status in Status if Status.named(str(status)) is not status}
     assert unequal == {Status.NO_FEASIBLE_DESIGN, Status.UNVERIFIED_OPTIMUM}
 
 

@@ -236,7 +236,7 @@ def test_a_compiler_that_hangs_is_stopped(tmp_path, monkeypatch):
     script.write_text("#!/bin/sh\nsleep 600 & wait\n")
     script.chmod(0o755)
     monkeypatch.setenv("CC", str(script))
-    monkeypatch.setattr("yawdesign.exports.fmu.compiler._TIME_LIMIT", 0.5)
+    monkeypatch.setattr("yawdesign.exports.fmu.archive._TIME_LIMIT", 0.5)
     fmu = yd.write_fmu(TABLE_1, tmp_path / "bogie.fmu")
     assert fmu.platform is None
     assert "slow-cc did not finish in 0.5 s and was stopped; the FMU holds its C code only" in fmu.message
@@ -291,7 +291,7 @@ def test_a_place_that_cannot_be_written_is_named_and_left_clean(tmp_path, monkey
 @pytest.mark.parametrize("compiler", [True, False])
 def test_export_on_the_command_line(tmp_path, compiler):
     problem = Path(__file__).parents[2] / "problems" / "table1.yaml"
-    command = [sys.executable, "-m", "yawdesign.cli", "export", str(problem), "--to", "out", "--only", "fmu"]
+    command = [sys.executable, "-m", "yawdesign", "export", str(problem), "--to", "out", "--only", "fmu"]
     environment = os.environ | ({} if compiler else {"PATH": str(tmp_path), "CC": ""})
     done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr

@@ -4,7 +4,7 @@ import pytest
 
 import yawdesign as yd
 from yawdesign.exports.equations_of_motion import equations_of_motion
-from yawdesign.exports.fmu.meanings import signal_meanings
+from yawdesign.exports.fmu.variables import signal_meanings
 from yawdesign.vehicle.elements import Link, Mass, Maxwell, Pair, Spring, physical
 from yawdesign.vehicle.state_space import StateSpace
 from yawdesign.vehicle.vehicle import Model

@@ -8,13 +8,19 @@ import flint
 import pytest
 
 from yawdesign.hunting import certificate
-from yawdesign.hunting.certificate import positive_roots
-from yawdesign.hunting.old import certify, critical_values, hurwitz_polynomial, unstable_roots
+from yawdesign.hunting.certificate import (
+    certify,
+    critical_values,
+    hurwitz_polynomial,
+    positive_roots,
+    unstable_roots,
+)
 from yawdesign.problem import Written
-from yawdesign.vehicle.old import Characteristic, characteristic, paper_coefficients
+from yawdesign.vehicle.motions import COUPLED, Motion
 from yawdesign.vehicle.polynomials import product
+from yawdesign.vehicle.vehicle import Model, Vehicle
 
-PRINTED = {"kind": "power", "equations": "as-printed"}
+PRINTED, RECIPROCAL, TRAILER = Model(equations="as-printed"), Model(), Model("trailer")
 
 
 @pytest.fixture
@@ -22,32 +28,29 @@ def bogie(table1):
     return {**table1, "v": Fraction(250, 3)}
 
 
-def test_reference_bogies(case, of_case):
-    p, model = of_case(case, exact=True)
-    found = certify(p, **model)
+def test_reference_bogies(case, vehicle_of_case):
+    found = certify(vehicle_of_case(case, exact=True))
     assert [x.C_s for x in found.critical] == pytest.approx(case["critical_C_s"], rel=1e-12)
     assert [x.omega for x in found.critical] == pytest.approx(case["crossing_omega"], rel=1e-12)
     assert list(found.unstable_roots) == case["unstable_roots_per_interval"]
 
 
-def test_degree_of_equation_11(bogie, model):
-    coefficients = hurwitz_polynomial(bogie, **model)
-    assert len(coefficients) - 1 == (49 if model["kind"] == "power" else 29)
+def test_degree_of_equation_11(bogie, vehicle_model):
+    coefficients = hurwitz_polynomial(vehicle_model.at(bogie))
+    assert len(coefficients) - 1 == (49 if vehicle_model.kind == "power" else 29)
     assert coefficients[0] != 0
     assert all(isinstance(x, Fraction) for x in coefficients)
 
 
-def test_equation_11_is_the_minor(bogie, model):
+def test_equation_11_is_the_minor(bogie, vehicle_model):
     C_s = Fraction(123_456, 7)
-    chi = paper_coefficients(
-        {n: flint.fmpq(*Fraction(str(x)).as_integer_ratio()) for n, x in {**bogie, "v": "250/3"}.items()},
-        flint.fmpq(123_456, 7),
-        **model,
-    )
+    written = {**bogie, "v": "250/3", "C_s": "123456/7"}
+    exactly = {n: flint.fmpq(*Fraction(str(x)).as_integer_ratio()) for n, x in written.items()}
+    chi = vehicle_model.at(exactly).paper_coefficients()
     n = len(chi) - 1
     rows = [[chi[2 * k - i] if 0 <= 2 * k - i <= n else 0 for k in range(1, n + 1)] for i in range(1, n + 1)]
     value = Fraction(0)
-    for coefficient in hurwitz_polynomial(bogie, **model):
+    for coefficient in hurwitz_polynomial(vehicle_model.at(bogie)):
         value = value * C_s + coefficient
     before = flint.fmpq_mat([row[:-1] for row in rows[:-1]]).det()
     assert flint.fmpq(value.numerator, value.denominator) == before
@@ -56,18 +59,18 @@ def test_equation_11_is_the_minor(bogie, model):
 
 
 @pytest.mark.parametrize("name", ["fm3.28_Cm_fixed", "xi0.07", "Kds_1e12", "rand01_2-0"])
-def test_equation_11_contains_the_critical_values(case_named, name):
-    p, model = case_named(name)
-    roots = positive_roots(hurwitz_polynomial(p, **model))
-    for x in critical_values(p, **model):
+def test_equation_11_contains_the_critical_values(vehicle_named, name):
+    vehicle = vehicle_named(name)
+    roots = positive_roots(hurwitz_polynomial(vehicle))
+    for x in critical_values(vehicle):
         assert any(math.isclose(x.C_s, root, rel_tol=1e-13) for root in roots)
 
 
-def test_a_smallest_root_that_is_no_boundary(case_named):
+def test_a_smallest_root_that_is_no_boundary(vehicle_named):
     # At f_m = 3.4 Hz the bogie is stable below the smallest positive root of (11): there stability is lost.
-    p, model = case_named("fm3.4_Cm_fixed")
-    assert positive_roots(hurwitz_polynomial(p, **model)) == pytest.approx([68401.0250268635, 504467.103663713])
-    assert certify(p, **model).unstable_roots == (0, 2, 0)
+    vehicle = vehicle_named("fm3.4_Cm_fixed")
+    assert positive_roots(hurwitz_polynomial(vehicle)) == pytest.approx([68401.0250268635, 504467.103663713])
+    assert certify(vehicle).unstable_roots == (0, 2, 0)
 
 
 @pytest.mark.parametrize(
@@ -75,10 +78,10 @@ def test_a_smallest_root_that_is_no_boundary(case_named):
     [(1, [365e3]), (2, [281e3]), (2.5, [202e3]), (3, [90e3]), (4, [674e3]), (5, [705e3]), (8, [677e3]), (10, [667e3])],
 )
 def test_figure_3_over_the_motor_frequency(bogie, hertz, values):
-    p = {**bogie, "K_m": bogie["M_m"] * (2 * math.pi * hertz) ** 2}
-    assert [x.C_s for x in critical_values(p, **PRINTED)] == pytest.approx(values, rel=0.01)
+    vehicle = PRINTED.at(bogie, K_m=bogie["M_m"] * (2 * math.pi * hertz) ** 2)
+    assert [x.C_s for x in critical_values(vehicle)] == pytest.approx(values, rel=0.01)
     if hertz in (2.5, 8):
-        assert positive_roots(hurwitz_polynomial(p, **PRINTED)) == pytest.approx(values, rel=0.01)
+        assert positive_roots(hurwitz_polynomial(vehicle)) == pytest.approx(values, rel=0.01)
 
 
 def test_spurious_roots_of_equation_11():
@@ -88,21 +91,21 @@ def test_spurious_roots_of_equation_11():
 
 
 def test_counts_without_critical_values(bogie):
-    slow = {**bogie, "v": Fraction(625, 9)}
-    assert certify(slow, **PRINTED).critical == ()
-    assert certify(slow, **PRINTED).unstable_roots == (0,)
+    found = certify(PRINTED.at(bogie, v=Fraction(625, 9)))
+    assert found.critical == ()
+    assert found.unstable_roots == (0,)
 
 
 @pytest.mark.parametrize(("C_s", "expected"), [(1, 2), (90_702, 2), (90_703, 0), (10**9, 0)])
 def test_unstable_roots(bogie, C_s, expected):
-    assert unstable_roots(bogie, C_s, **PRINTED) == expected
+    assert unstable_roots(PRINTED.at(bogie), C_s) == expected
 
 
-def test_unstable_roots_are_those_of_the_roots(random_bogies, rational, exact_roots):
-    for p, model in random_bogies(30, spread=10, seed=31):
-        core = characteristic(rational(p), **model).core(flint.fmpq(100_000))
-        exactly = {name: Fraction(value) for name, value in p.items()}
-        assert unstable_roots(exactly, 100_000, **model) == sum(exact_roots(core).real > 0)
+def test_unstable_roots_are_those_of_the_roots(random_vehicles, rational_vehicle, exact_roots):
+    for vehicle in random_vehicles(30, spread=10, seed=31):
+        coupled = rational_vehicle(vehicle).coupled.polynomial(flint.fmpq(100_000))
+        exactly = vehicle.model.at({name: Fraction(value) for name, value in vehicle.p.items()})
+        assert unstable_roots(exactly, 100_000) == sum(exact_roots(coupled).real > 0)
 
 
 def test_positive_roots():
@@ -113,23 +116,23 @@ def test_positive_roots():
     assert positive_roots([1, -(2 + Fraction(1, 10**30)), 1 + Fraction(1, 10**30)]) == (1.0, 1.0)
 
 
-def test_a_count_at_a_critical_value_is_refused(monkeypatch):
+def test_a_count_at_a_critical_value_is_refused(bogie, monkeypatch):
     # (s^2 + 1)(s + 1) + 0 C_s: roots on the axis for certain
-    monkeypatch.setattr(certificate, "characteristic", lambda *_, **__: Characteristic((1, 1, 1, 1), (0, 0, 0, 0), {}))
+    axis = Motion(COUPLED, frozenset(), ((1, 1, 1, 1), (0, 0, 0, 0)))
+    monkeypatch.setattr(Vehicle, "motions", (axis,))
     with pytest.raises(ArithmeticError, match="exactly critical"):
-        unstable_roots({}, 1)
+        unstable_roots(RECIPROCAL.at(bogie), 1)
 
 
 def test_a_number_is_what_was_written(bogie):
-    written = {**bogie, "v": Written(Fraction(250, 3))}
-    trailer = {"kind": "trailer"}
-    assert hurwitz_polynomial(written, **trailer) == hurwitz_polynomial(bogie, **trailer)
-    assert hurwitz_polynomial({**bogie, "v": 250 / 3}, **trailer) != hurwitz_polynomial(bogie, **trailer)
+    written, exactly, nearly = (TRAILER.at(bogie, v=v) for v in (Written(Fraction(250, 3)), Fraction(250, 3), 250 / 3))
+    assert hurwitz_polynomial(written) == hurwitz_polynomial(exactly)
+    assert hurwitz_polynomial(nearly) != hurwitz_polynomial(exactly)
 
 
 def test_the_precision_of_flint_is_left_as_it_was(bogie):
     before = flint.ctx.prec
-    critical_values(bogie)
+    critical_values(RECIPROCAL.at(bogie))
     assert flint.ctx.prec == before
 
 
@@ -143,4 +146,4 @@ def test_without_flint_the_remedy_is_named(bogie, monkeypatch):
 
     monkeypatch.setattr(builtins, "__import__", without_flint)
     with pytest.raises(ImportError, match=r'pip install "yawdesign\[certify\]"'):
-        critical_values(bogie)
+        critical_values(RECIPROCAL.at(bogie))

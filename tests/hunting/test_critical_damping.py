@@ -6,16 +6,19 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from yawdesign.hunting.certificate import certify
+from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.hunting.eigenvalues import motion_eigenvalues
 from yawdesign.hunting.many.critical_values import critical_field
-from yawdesign.hunting.many.parameter_sets import Block
-from yawdesign.hunting.old import certify, core_matrix, critical_damping
+from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.routh import count_unstable
-from yawdesign.vehicle.old import characteristic
+from yawdesign.vehicle.vehicle import Model
+
+PRINTED, RECIPROCAL = Model(equations="as-printed"), Model()
 
 
-def test_reference_bogies(case, of_case):
-    p, model = of_case(case)
-    found = critical_damping(p, **model)
+def test_reference_bogies(case, vehicle_of_case):
+    found = critical_damping(vehicle_of_case(case))
     assert [x.C_s for x in found.critical] == pytest.approx(case["critical_C_s"], rel=1e-8)
     assert [x.omega for x in found.critical] == pytest.approx(case["crossing_omega"], rel=1e-8)
     assert list(found.unstable_roots) == case["unstable_roots_per_interval"]
@@ -33,7 +36,7 @@ def test_reference_bogies(case, of_case):
     ],
 )
 def test_table_1(table1, kind, equations, kmh, C_s, omega):
-    found = critical_damping({**table1, "v": kmh / 3.6}, kind=kind, equations=equations)
+    found = critical_damping(Model(kind, equations).at(table1, v=kmh / 3.6))
     (value,) = found.critical
     assert value.C_s == pytest.approx(C_s, rel=1e-9)
     assert value.omega == pytest.approx(omega, rel=1e-9)
@@ -45,7 +48,7 @@ def test_table_1(table1, kind, equations, kmh, C_s, omega):
 
 @pytest.mark.parametrize("equations", ["as-printed", "reciprocal"])
 def test_table_1_is_always_stable_at_250(table1, equations):
-    found = critical_damping({**table1, "v": 250 / 3.6}, equations=equations)
+    found = critical_damping(Model(equations=equations).at(table1, v=250 / 3.6))
     assert found.critical == ()
     assert found.unstable_roots == (0,)
     assert found.stable_intervals == ((0.0, math.inf),)
@@ -56,21 +59,21 @@ def test_unrounded_motor_suspension(table1):
     omega = 2 * 3.14 * 3
     K_m = table1["M_m"] * omega**2
     p = {**table1, "K_m": K_m, "C_m": 2 * 0.3 * math.sqrt(K_m * table1["M_m"])}
-    (value,) = critical_damping(p, equations="as-printed").critical
+    (value,) = critical_damping(PRINTED.at(p)).critical
     assert (p["K_m"], p["C_m"]) == pytest.approx((626478.98, 19951.56), abs=0.005)
     assert value.C_s == pytest.approx(90727.8396, rel=1e-9)
 
 
-def exactly(p):
-    return {name: Fraction(value) for name, value in p.items()}
+def exactly(vehicle):
+    return vehicle.model.at({name: Fraction(value) for name, value in vehicle.p.items()})
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("n", "spread", "seed"), [(200, 3, 21), (60, 10, 22)])
-def test_random_bogies_against_certificates(random_bogies, n, spread, seed):
+def test_random_bogies_against_certificates(random_vehicles, n, spread, seed):
     values = 0
-    for p, model in random_bogies(n, spread=spread, seed=seed):
-        found, proved = critical_damping(p, **model), certify(exactly(p), **model)
+    for vehicle in random_vehicles(n, spread=spread, seed=seed):
+        found, proved = critical_damping(vehicle), certify(exactly(vehicle))
         assert found.unstable_roots == proved.unstable_roots
         assert [x.C_s for x in found.critical] == pytest.approx([x.C_s for x in proved.critical], rel=1e-8)
         assert [x.omega for x in found.critical] == pytest.approx([x.omega for x in proved.critical], rel=1e-8)
@@ -80,7 +83,6 @@ def test_random_bogies_against_certificates(random_bogies, n, spread, seed):
 
 
 # Nearly undamped motions put two crossings close together in frequency and decades apart in C_s.
-PRINTED, RECIPROCAL = ({"kind": "power", "equations": equations} for equations in ("as-printed", "reciprocal"))
 HIDDEN = {
     "one below and one above the rest": (
         PRINTED,
@@ -98,11 +100,11 @@ HIDDEN = {
 }
 
 
-def asked_both_ways(p, model):
+def asked_both_ways(vehicle):
     """Return critical values and counts of the single question and of a sweep's, which must say they are checked."""
-    one = critical_damping(p, **model)
+    one = critical_damping(vehicle)
     assert one.checked
-    field = critical_field(Block(p, 1), **model)
+    field = critical_field(ParameterSets(vehicle.model, vehicle.p, 1))
     assert not field.unverified.any()
     return [([x.C_s for x in one.critical], one.unstable_roots), (field.values_at(0)[0], field.counts_at(0))]
 
@@ -110,23 +112,23 @@ def asked_both_ways(p, model):
 @pytest.mark.parametrize("name", HIDDEN)
 def test_no_critical_value_is_missed(table1, name):
     model, changes, values, counts = HIDDEN[name]
-    for found, unstable in asked_both_ways({**table1, **changes}, model):
+    for found, unstable in asked_both_ways(model.at({**table1, **changes})):
         assert found == pytest.approx(values, rel=1e-9)
         assert unstable == counts
 
 
 def test_the_counts_hold_towards_zero_and_infinity(table1):
     model, changes, _, counts = HIDDEN["one below and one above the rest"]
-    c = characteristic({**table1, **changes}, **model)
-    assert count_unstable(c.core(1e-30)) == counts[0]
-    assert count_unstable(c.core(5e7)) == count_unstable(c.core(1e40)) == counts[-1]
+    coupled = model.at({**table1, **changes}).coupled
+    assert count_unstable(coupled.polynomial(1e-30)) == counts[0]
+    assert count_unstable(coupled.polynomial(5e7)) == count_unstable(coupled.polynomial(1e40)) == counts[-1]
 
 
 def test_a_fold(table1):
     # Two of the three values are 5.6e-6 of themselves apart.
-    p = {**table1, "K_m": 737832.4535008409}
-    proved = certify(p, **PRINTED)
-    for found, unstable in asked_both_ways(p, PRINTED):
+    vehicle = PRINTED.at(table1, K_m=737832.4535008409)
+    proved = certify(vehicle)
+    for found, unstable in asked_both_ways(vehicle):
         assert len(found) == 3
         assert found[2] / found[1] - 1 == pytest.approx(5.83e-6, rel=1e-2)
         assert found == pytest.approx([x.C_s for x in proved.critical], rel=1e-9)
@@ -138,9 +140,9 @@ def test_both_sides_of_a_fold(table1, apart):
     # The fold over K_m lies where the two values above meet; on the one side are three values, on the other one.
     fold = 737832.4535000349
     for K_m in (fold * (1 - apart), fold * (1 + apart)):
-        p = {**table1, "K_m": K_m}
-        proved = certify(p, **PRINTED)
-        for found, unstable in asked_both_ways(p, PRINTED):
+        vehicle = PRINTED.at(table1, K_m=K_m)
+        proved = certify(vehicle)
+        for found, unstable in asked_both_ways(vehicle):
             assert found == pytest.approx([x.C_s for x in proved.critical], rel=1e-8)
             assert unstable == proved.unstable_roots
 
@@ -150,26 +152,26 @@ def test_both_sides_of_a_fold(table1, apart):
     [("a", 18, 0), ("K_m", 44, 0), ("lambda", 37, 0), ("a", 19, -1), ("lambda", 7, -1), ("lambda", 21, -1)],
 )
 @pytest.mark.slow
-def test_values_far_outside_what_is_allowed(random_bogies, name, which, end):
+def test_values_far_outside_what_is_allowed(random_vehicles, name, which, end):
     # Where the count towards 0 or infinity changes over a parameter, a critical value runs off to there.
-    p, model = list(random_bogies(which + 1, seed=90))[which]
-    low, high = p[name], 1.5 * p[name]
-    below = critical_damping({**p, name: low}, **model).unstable_roots[end]
+    vehicle = list(random_vehicles(which + 1, seed=90))[which]
+    low, high = vehicle.p[name], 1.5 * vehicle.p[name]
+    below = critical_damping(vehicle).unstable_roots[end]
     for _ in range(24):
         middle = (low + high) / 2
-        found = critical_damping({**p, name: middle}, **model)
+        found = critical_damping(vehicle.replace(**{name: middle}))
         low, high = (middle, high) if found.unstable_roots[end] == below else (low, middle)
-    proved = certify({**p, name: middle}, **model)
+    proved = certify(vehicle.replace(**{name: middle}))
     assert found.checked
     assert found.unstable_roots == proved.unstable_roots
     assert [x.C_s for x in found.critical] == pytest.approx([x.C_s for x in proved.critical], rel=1e-8)
     assert any(x.C_s > 1e13 or x.C_s < 1 for x in found.critical)
 
 
-def test_intervals_and_what_a_value_makes_of_the_bogie(random_bogies):
+def test_intervals_and_what_a_value_makes_of_the_bogie(random_vehicles):
     seen = set()
-    for p, model in random_bogies(150, seed=23):
-        found = critical_damping(p, **model)
+    for vehicle in random_vehicles(150, seed=23):
+        found = critical_damping(vehicle)
         ends = [end for interval in found.intervals for end in interval]
         assert ends == sorted(ends)
         for value, before, after in zip(found.critical, found.unstable_roots, found.unstable_roots[1:], strict=False):
@@ -182,24 +184,25 @@ def test_intervals_and_what_a_value_makes_of_the_bogie(random_bogies):
     assert seen == {"stable", "unstable", "neither"}
 
 
-def test_stable_intervals_agree_with_eigenvalues(random_bogies):
+def test_stable_intervals_agree_with_eigenvalues(random_vehicles):
     rng = np.random.default_rng(24)
-    for p, model in random_bogies(60, seed=24):
-        found = critical_damping(p, **model)
+    for drawn in random_vehicles(60, seed=24):
+        found = critical_damping(drawn)
         for C_s in 10 ** rng.uniform(2, 8, size=5):
             if any(abs(C_s / x.C_s - 1) < 1e-6 for x in found.critical):
                 continue
-            unstable = int(np.sum(np.linalg.eigvals(core_matrix(p, C_s, **model)).real > 0))
+            vehicle = drawn.replace(C_s=C_s)
+            unstable = int(np.sum(motion_eigenvalues(vehicle, vehicle.coupled).real > 0))
             (count,) = (n for (lo, hi), n in zip(found.intervals, found.unstable_roots, strict=True) if lo < C_s < hi)
-            assert count == unstable == count_unstable(characteristic(p, **model).core(C_s))
+            assert count == unstable == count_unstable(vehicle.coupled.polynomial(C_s))
             assert any(lo < C_s < hi for lo, hi in found.stable_intervals) == (unstable == 0)
 
 
 @pytest.mark.parametrize("k", [1e-6, 1e6])
 def test_far_from_si_sizes(table1, k):
     # A model bogie of a thousandth of the mass, or a bogie in grams: no fixed scale may be built in.
-    (expected,) = critical_damping(table1).critical
-    found = critical_damping(force_scaled(table1, k))
+    (expected,) = critical_damping(RECIPROCAL.at(table1)).critical
+    found = critical_damping(RECIPROCAL.at(force_scaled(table1, k)))
     assert [x.C_s for x in found.critical] == pytest.approx([k * expected.C_s], rel=1e-8)
     assert found.checked
 
@@ -212,19 +215,19 @@ def force_scaled(p, k):
 def test_no_warnings_at_high_frequencies(table1):
     # In SI units the polynomials overflow there; warnings are errors in these tests.
     stiff = {name: value * 30 if name.startswith(("K_", "M_", "J_")) else value for name, value in table1.items()}
-    assert critical_damping(stiff).checked
+    assert critical_damping(RECIPROCAL.at(stiff)).checked
 
 
-def test_a_damper_without_damping_is_no_obstacle(table1, of_case):
-    p = {**table1, "C_m": 0.0, "C_t": 0.0}
-    found, proved = critical_damping(p), certify(exactly(p))
+def test_a_damper_without_damping_is_no_obstacle(table1):
+    vehicle = RECIPROCAL.at(table1, C_m=0.0, C_t=0.0)
+    found, proved = critical_damping(vehicle), certify(exactly(vehicle))
     assert found.unstable_roots == proved.unstable_roots
     assert [x.C_s for x in found.critical] == pytest.approx([x.C_s for x in proved.critical], rel=1e-8)
 
 
 @pytest.mark.parametrize("seed", [111, 7, 19])
-def test_a_root_that_is_a_candidate_itself(random_bogies, seed):
+def test_a_root_that_is_a_candidate_itself(random_vehicles, seed):
     # An array and a single number differ in the last bit, and at the root itself that decides the sign.
-    for (p, _), k in zip(random_bogies(40, seed=seed), np.geomspace(1e-3, 1e3, 40), strict=True):
-        found = critical_damping(force_scaled(p, k))
+    for vehicle, k in zip(random_vehicles(40, seed=seed), np.geomspace(1e-3, 1e3, 40), strict=True):
+        found = critical_damping(RECIPROCAL.at(force_scaled(vehicle.p, k)))
         assert found.checked

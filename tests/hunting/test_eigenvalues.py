@@ -1,19 +1,29 @@
 """Eigenvalues against the reference bogies and against exact roots."""
 
-import flint
 import numpy as np
 import pytest
 
-from yawdesign.hunting.eigenvalues import backward_error, damping_ratio, decay_rate, eigenvalues, polished, roots
-from yawdesign.hunting.old import core_eigenvalues, core_matrix, state_matrix
-from yawdesign.vehicle.old import characteristic
+from yawdesign.hunting.eigenvalues import (
+    backward_error,
+    damping_ratio,
+    decay_rate,
+    eigenvalues,
+    in_order,
+    motion_eigenvalues,
+    motion_matrix,
+    polished,
+    roots,
+    state_matrix,
+)
+from yawdesign.vehicle.vehicle import Model
 
-PRINTED = {"kind": "power", "equations": "as-printed"}
+PRINTED = Model(equations="as-printed")
 
 
-def test_spectral_abscissa_of_the_reference_bogies(case, of_case):
-    p, model = of_case(case)
-    s = eigenvalues(state_matrix(p, case["C_s"], **model))
+def test_spectral_abscissa_of_the_reference_bogies(case, vehicle_of_case):
+    vehicle = vehicle_of_case(case)
+    s = eigenvalues(vehicle)
+    assert len(s) == vehicle.state_space.size
     assert s[0].real == pytest.approx(case["spectral_abscissa"], abs=1e-8)
     assert decay_rate(s) == -s[0].real
 
@@ -24,43 +34,51 @@ def distances(found, expected):
     return apart.min(axis=1) / (1 + np.abs(found)), apart.min(axis=0) / (1 + np.abs(expected))
 
 
-def test_core_matrix_is_the_state_matrix_without_the_decoupled_motions(random_bogies):
-    for p, model in random_bogies(60, seed=4):
-        whole = np.linalg.eigvals(state_matrix(p, 2e5, **model))
-        core = np.linalg.eigvals(core_matrix(p, 2e5, **model))
-        factors = characteristic(p, **model).factors.values()
-        rest = np.concatenate([core, *(np.roots(f[::-1]) for f in factors)])
-        assert len(rest) == len(whole)
-        # The double root of the model as printed is known to half the digits only.
-        assert max(map(np.max, distances(whole, rest))) < 1e-5
+def test_the_motions_have_the_eigenvalues_of_the_state_matrix(random_vehicles):
+    for drawn in random_vehicles(60, seed=4):
+        vehicle = drawn.replace(C_s=2e5)
+        whole = np.linalg.eigvals(state_matrix(vehicle))
+        coupled, *others = vehicle.motions
+        rest = np.concatenate(
+            [motion_eigenvalues(vehicle, coupled), *(np.roots(motion.polynomial(2e5)[::-1]) for motion in others)]
+        )
+        for found in (rest, eigenvalues(vehicle)):
+            assert len(found) == len(whole)
+            # The double root of the model as printed is known to half the digits only.
+            assert max(map(np.max, distances(whole, found))) < 1e-5
 
 
-def test_core_matrix_has_the_roots_of_the_core_polynomial(random_bogies, rational, exact_roots):
-    for p, model in random_bogies(40, seed=6):
-        found = np.linalg.eigvals(core_matrix(p, 2e5, **model))
-        expected = exact_roots(characteristic(rational(p), **model).core(flint.fmpq(200_000)))
-        assert len(found) == len(expected)
-        assert max(map(np.max, distances(found, expected))) < 1e-7
+def test_the_matrix_of_a_motion_has_the_roots_of_its_polynomial(random_vehicles, rational_vehicle, exact_roots):
+    for drawn in random_vehicles(40, seed=6):
+        vehicle = drawn.replace(C_s=2e5)
+        for motion, exact in zip(vehicle.motions, rational_vehicle(vehicle).motions, strict=True):
+            found, expected = motion_eigenvalues(vehicle, motion), exact_roots(exact.polynomial(200_000))
+            assert len(found) == len(expected)
+            assert max(map(np.max, distances(found, expected))) < 1e-7
 
 
-def test_eigenvalues_have_small_backward_errors(case, of_case):
-    p, model = of_case(case)
-    s = np.linalg.eigvals(core_matrix(p, case["C_s"], **model))
-    assert np.max(backward_error(characteristic(p, **model).core(case["C_s"]), s)) < 1e-11
+def test_eigenvalues_have_small_backward_errors(case, vehicle_of_case):
+    vehicle = vehicle_of_case(case)
+    for motion in vehicle.motions:
+        s = motion_eigenvalues(vehicle, motion)
+        assert np.max(backward_error(motion.polynomial(vehicle.C_s), s)) < 1e-11
 
 
-def test_matrices_of_many_bogies(table1, model):
+def test_matrices_of_many_bogies(table1, vehicle_model):
     C_s, v = np.array([1e5, 1e6, 2e6])[:, None], np.array([50.0, 80.0])
-    stack = state_matrix({**table1, "v": v}, C_s, **model)
-    assert stack.shape[:2] == (3, 2)
+    many = vehicle_model.at(table1, v=v, C_s=C_s)
+    stack, coupled = state_matrix(many), motion_matrix(many, many.coupled)
+    assert stack.shape[:2] == coupled.shape[:2] == (3, 2)
     for i in range(3):
         for j in range(2):
-            assert np.array_equal(stack[i, j], state_matrix({**table1, "v": v[j]}, C_s[i, 0], **model))
+            one = vehicle_model.at(table1, v=v[j], C_s=C_s[i, 0])
+            assert np.array_equal(stack[i, j], state_matrix(one))
+            assert np.array_equal(coupled[i, j], motion_matrix(one, one.coupled))
 
 
 def test_order_of_eigenvalues():
-    s = eigenvalues(np.diag([-3.0, -1.0, -2.0]))
-    assert list(s) == [-1, -2, -3]
+    assert list(in_order(np.array([-3.0, -1.0, -2.0]))) == [-1, -2, -3]
+    assert list(in_order(np.array([-1 - 2j, -3, -1 + 2j, -1]))) == [-1, -1 + 2j, -1 - 2j, -3]
 
 
 def test_margins():
@@ -84,9 +102,9 @@ def test_backward_error_is_zero_at_a_root_only():
 
 
 def test_polished_eigenvalues_are_roots_and_none_is_lost(table1):
-    p = {**table1, "C_m": 1e-3}
-    polynomial = characteristic(p, **PRINTED).core(1e6)
-    rough = core_eigenvalues(p, 1e6, **PRINTED)
+    vehicle = PRINTED.at(table1, C_m=1e-3, C_s=1e6)
+    polynomial = vehicle.coupled.polynomial(vehicle.C_s)
+    rough = motion_eigenvalues(vehicle, vehicle.coupled)
     fine = polished(polynomial, rough)
     assert backward_error(polynomial, rough).max() > 1e-9
     assert backward_error(polynomial, fine).max() < 1e-14
@@ -96,5 +114,6 @@ def test_polished_eigenvalues_are_roots_and_none_is_lost(table1):
 
 
 def test_eigenvalues_that_are_roots_already_stay(table1):
-    polynomial, s = characteristic(table1, **PRINTED).core(1e6), core_eigenvalues(table1, 1e6, **PRINTED)
+    vehicle = PRINTED.at(table1, C_s=1e6)
+    polynomial, s = vehicle.coupled.polynomial(1e6), motion_eigenvalues(vehicle, vehicle.coupled)
     assert polished(polynomial, s) == pytest.approx(s, rel=1e-9)

@@ -6,16 +6,19 @@ from fractions import Fraction
 import pytest
 
 from yawdesign.hunting import exact
-from yawdesign.hunting.exact import NotDecidedError
-from yawdesign.hunting.old import certify, exact_critical_values
-from yawdesign.vehicle.old import Characteristic
+from yawdesign.hunting.certificate import certify
+from yawdesign.hunting.exact import NotDecidedError, exact_critical_values
+from yawdesign.vehicle.motions import COUPLED, Motion
 from yawdesign.vehicle.polynomials import product
+from yawdesign.vehicle.vehicle import Model, Vehicle
+
+PRINTED = Model(equations="as-printed")
 
 
-def test_random_bogies_have_the_proved_values(random_bogies):
+def test_random_bogies_have_the_proved_values(random_vehicles):
     values = 0
-    for p, model in random_bogies(25, spread=10, seed=41):
-        found, proved = exact_critical_values(p, **model), certify(p, **model)
+    for vehicle in random_vehicles(25, spread=10, seed=41):
+        found, proved = exact_critical_values(vehicle), certify(vehicle)
         assert found.unstable_roots == proved.unstable_roots
         for x, y in zip(found.critical, proved.critical, strict=True):
             assert tuple(map(float, x)) == pytest.approx((y.C_s, y.omega), rel=1e-15)
@@ -23,9 +26,8 @@ def test_random_bogies_have_the_proved_values(random_bogies):
     assert values > 6
 
 
-def test_reference_bogies(case, of_case):
-    p, model = of_case(case, exact=True)
-    found = exact_critical_values(p, **model)
+def test_reference_bogies(case, vehicle_of_case):
+    found = exact_critical_values(vehicle_of_case(case, exact=True))
     assert [float(C_s) for C_s, _ in found.critical] == pytest.approx(case["critical_C_s"], rel=1e-12)
     assert list(found.unstable_roots) == case["unstable_roots_per_interval"]
 
@@ -55,12 +57,12 @@ def test_digits_double_until_two_answers_agree(table1, monkeypatch):
     digits = []
     values = exact._values
 
-    def counted(c, n):
+    def counted(A, B, n):
         digits.append(n)
-        return values(c, n)
+        return values(A, B, n)
 
     monkeypatch.setattr(exact, "_values", counted)
-    exact_critical_values(table1, kind="power", equations="as-printed")
+    exact_critical_values(PRINTED.at(table1))
     assert digits == [50, 100]
 
 
@@ -68,21 +70,21 @@ def test_an_answer_that_never_comes_twice_is_none(table1, monkeypatch):
     answers = iter(range(100))
     monkeypatch.setattr(exact, "_values", lambda *_: exact.ExactValues((), (next(answers),)))
     with pytest.raises(NotDecidedError, match="1600 digits"):
-        exact_critical_values(table1, kind="power", equations="as-printed")
+        exact_critical_values(PRINTED.at(table1))
 
 
-def test_values_that_coincide_are_not_decided(monkeypatch):
+def test_values_that_coincide_are_not_decided(table1, monkeypatch):
     # s^2 + 1 divides A and B: a root stays on the axis for every C_s, and no number of digits tells what crosses.
     axis = (1, 0, 1)
-    both = Characteristic(product([axis, (2, 3, 1)]), (0, *product([axis, (1, 1)])), {})
-    monkeypatch.setattr(exact, "characteristic", lambda *_, **__: both)
+    both = Motion(COUPLED, frozenset(), (product([axis, (2, 3, 1)]), (0, *product([axis, (1, 1)]))))
+    monkeypatch.setattr(Vehicle, "motions", (both,))
     monkeypatch.setattr(exact, "LAST_DIGITS", 200)
     with pytest.raises(NotDecidedError):
-        exact_critical_values({}, kind="power", equations="as-printed")
+        exact_critical_values(PRINTED.at(table1))
 
 
 def test_a_step_against_the_crossing_is_refused(table1, monkeypatch):
     monkeypatch.setattr(exact, "_direction", lambda *_: 1)
     monkeypatch.setattr(exact, "LAST_DIGITS", 100)
     with pytest.raises(NotDecidedError):
-        exact_critical_values(table1, kind="power", equations="as-printed")
+        exact_critical_values(PRINTED.at(table1))

@@ -26,8 +26,8 @@ from exudyn.itemInterface import (
 )
 from scipy.optimize import linear_sum_assignment
 
-from yawdesign.hunting.old import state_matrix
-from yawdesign.vehicle.old import StateSpace, bogie, physical
+from yawdesign.hunting.eigenvalues import state_matrix
+from yawdesign.vehicle.vehicle import Model
 
 ENDS, SIDES = (1, -1), (1, -1)  # front and rear, left and right
 X, Y = 0, 1
@@ -179,7 +179,7 @@ class Assembly:
 
 def expected_eigenvalues(p, C_s):
     """Return the eigenvalues of the model, with the two yaw dampers against each other."""
-    return np.append(np.linalg.eigvals(state_matrix(p, C_s)), -p["K_ds"] / C_s)
+    return np.append(np.linalg.eigvals(state_matrix(Model().at(p, C_s=C_s))), -p["K_ds"] / C_s)
 
 
 def largest_difference(found, expected):
@@ -210,17 +210,19 @@ def test_every_parameter_counts(table1):
 
 
 def test_the_model_as_printed_is_another_one(table1):
-    printed = np.append(np.linalg.eigvals(state_matrix(table1, 1e6, equations="as-printed")), -table1["K_ds"] / 1e6)
+    vehicle = Model(equations="as-printed").at(table1, C_s=1e6)
+    printed = np.append(np.linalg.eigvals(state_matrix(vehicle)), -table1["K_ds"] / 1e6)
     assert largest_difference(Assembly(table1, 1e6).eigenvalues(), printed) > 1e-3
 
 
 def test_motion_after_an_offset_of_the_front_wheelset(table1):
     offset, end = 1e-4, 1.0
     coarse, fine = (Assembly(table1, 1e6).swing("w1", offset, end, steps) for steps in (4000, 8000))
-    coordinates = StateSpace(physical(bogie({**table1, "C_s": 1e6}))).coordinates
+    vehicle = Model().at(table1, C_s=1e6)
+    coordinates = vehicle.state_space.coordinates
     start = np.zeros(25)
     start[coordinates.index("y_w1")] = offset
-    matrix = state_matrix(table1, 1e6)
+    matrix = state_matrix(vehicle)
     exact = np.array([sl.expm(matrix * t) @ start for t in fine["b"][:, 0]])
     for body in fine:
         # The integrator starts without accelerations, which costs it one order: two step sizes give it back.

@@ -6,9 +6,9 @@ import flint
 import numpy as np
 import pytest
 
+from yawdesign.hunting import boundary as graphs
 from yawdesign.hunting.hurwitz import hurwitz_minors
-from yawdesign.hunting.old import boundary as graphs
-from yawdesign.vehicle.old import paper_coefficients
+from yawdesign.vehicle.vehicle import Model
 
 
 def exact_minors(chi):
@@ -21,38 +21,39 @@ def exact_minors(chi):
 
 
 @pytest.mark.parametrize("C_s", [3e4, 1e6])
-def test_every_minor_of_table_1(table1, model, rational, C_s):
-    signs, logarithms = hurwitz_minors(paper_coefficients(table1, C_s, **model, unit=100.0))
-    expected = exact_minors(paper_coefficients(rational(table1), flint.fmpq(int(C_s)), **model))
+def test_every_minor_of_table_1(table1, vehicle_model, rational_vehicle, C_s):
+    vehicle = vehicle_model.at(table1, C_s=C_s)
+    signs, logarithms = hurwitz_minors(vehicle.paper_coefficients(unit=100.0))
+    expected = exact_minors(rational_vehicle(vehicle).paper_coefficients())
     assert signs == expected[0]
     assert logarithms == pytest.approx(expected[1], abs=1e-10)
     assert all(s > 0 for s in signs) == (C_s == 1e6)
 
 
 def test_the_minors_the_paper_could_not_form(table1):
-    _, logarithms = hurwitz_minors(paper_coefficients(table1, 1e6, equations="as-printed", unit=100.0))
+    _, logarithms = hurwitz_minors(Model(equations="as-printed").at(table1, C_s=1e6).paper_coefficients(unit=100.0))
     assert len(logarithms) == 26
     assert max(logarithms) > 308  # larger than any double
 
 
 @pytest.mark.parametrize("unit", [1.0, 30.0, 100.0, 1000.0])
 def test_the_unit_of_time_does_not_matter(table1, unit):
-    one = hurwitz_minors(paper_coefficients(table1, 1e6, unit=unit), unit=unit)
-    other = hurwitz_minors(paper_coefficients(table1, 1e6, unit=100.0))
+    vehicle = Model().at(table1, C_s=1e6)
+    one = hurwitz_minors(vehicle.paper_coefficients(unit), unit=unit)
+    other = hurwitz_minors(vehicle.paper_coefficients(unit=100.0))
     assert one[0] == other[0]
     assert one[1] == pytest.approx(other[1], abs=1e-5)
 
 
 def test_the_last_minor_is_the_one_before_times_the_last_coefficient(table1):
-    chi = paper_coefficients(table1, 1e6)
+    chi = Model().at(table1, C_s=1e6).paper_coefficients()
     _, logarithms = hurwitz_minors(chi, unit=1.0)
     assert logarithms[-1] - logarithms[-2] == pytest.approx(math.log10(chi[-1]), abs=1e-6)
 
 
-def test_graph_equals_numbers(table1, model):
-    names = tuple(table1)
-    sign, log10 = graphs.hurwitz_minors(names, **model)(list(table1.values()), 1e6)
-    signs, logarithms = hurwitz_minors(paper_coefficients(table1, 1e6, **model, unit=100.0))
+def test_graph_equals_numbers(table1, vehicle_model):
+    sign, log10 = graphs.hurwitz_minors(vehicle_model, tuple(table1))(list(table1.values()), 1e6)
+    signs, logarithms = hurwitz_minors(vehicle_model.at(table1, C_s=1e6).paper_coefficients(unit=100.0))
     assert np.array(sign).ravel() == pytest.approx(signs)
     assert np.array(log10).ravel() == pytest.approx(logarithms, abs=1e-9)
 

@@ -5,21 +5,20 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from yawdesign.hunting.old import core_matrix, critical_damping, state_matrix
-from yawdesign.vehicle.old import characteristic
+from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.hunting.eigenvalues import motion_eigenvalues, state_matrix
+from yawdesign.vehicle.vehicle import Model
 
-MODELS = st.sampled_from([("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal")]).map(
-    lambda m: {"kind": m[0], "equations": m[1]}
-)
+MODELS = st.sampled_from([Model("power", "as-printed"), Model("power", "reciprocal"), Model("trailer", "reciprocal")])
 few = settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 sizes = st.floats(-4, 4).map(lambda x: 10**x)
 seeds = st.integers(0, 10**6)
 FORCES = ("M_", "J_", "W", "K_", "C_", "f_")
 
 
-def bogie(random_bogies, seed):
-    (drawn,) = random_bogies(1, seed=seed)
-    return drawn[0]
+def bogie(random_vehicles, seed):
+    (drawn,) = random_vehicles(1, seed=seed)
+    return drawn.p
 
 
 def scaled(p, powers):
@@ -40,69 +39,70 @@ def same_answer(one, other, C_s=1.0, omega=1.0, rel=1e-7):
 
 @few
 @given(seeds, MODELS, sizes)
-def test_forces_and_masses_times_k(random_bogies, seed, model, k):
-    p = bogie(random_bogies, seed)
+def test_forces_and_masses_times_k(random_vehicles, seed, model, k):
+    p = bogie(random_vehicles, seed)
     heavy = scaled(p, dict.fromkeys(FORCES, k))
-    same_answer(critical_damping(p, **model), critical_damping(heavy, **model), C_s=k)
+    same_answer(critical_damping(model.at(p)), critical_damping(model.at(heavy)), C_s=k)
 
 
 @few
 @given(seeds, MODELS, st.floats(-1, 1).map(lambda x: 10**x))
-def test_another_unit_of_length(random_bogies, seed, model, k):
+def test_another_unit_of_length(random_vehicles, seed, model, k):
     # Lengths times k: moments of inertia and yaw stiffness and damping times k^2, speed and forces times k.
-    p = bogie(random_bogies, seed)
+    p = bogie(random_vehicles, seed)
     lengths = dict.fromkeys(("a", "b", "a_0", "b_0", "b_1", "b_2", "b_3", "r", "v"), k)
     long = {n: x * k if n in lengths else x for n, x in p.items()}
     long |= {n: p[n] * k**2 for n in ("J_b", "J_w", "J_m", "K_mphi", "C_mphi")}
     long |= {n: p[n] * k for n in ("W", "f_11", "f_22")}
-    same_answer(critical_damping(p, **model), critical_damping(long, **model))
+    same_answer(critical_damping(model.at(p)), critical_damping(model.at(long)))
 
 
 @few
 @given(seeds, MODELS, st.floats(-1, 1).map(lambda x: 10**x))
-def test_another_unit_of_time(random_bogies, seed, model, k):
+def test_another_unit_of_time(random_vehicles, seed, model, k):
     # Time times 1/k: stiffness and forces times k^2, damping and speed times k.
-    p = bogie(random_bogies, seed)
+    p = bogie(random_vehicles, seed)
     fast = scaled(p, {"K_": k**2, "C_": k, "W": k**2, "f_": k**2, "v": k})
-    same_answer(critical_damping(p, **model), critical_damping(fast, **model), C_s=k, omega=k)
+    same_answer(critical_damping(model.at(p)), critical_damping(model.at(fast)), C_s=k, omega=k)
 
 
 @few
 @given(seeds, MODELS, st.floats(1, 8).map(lambda x: 10**x))
-def test_running_the_mirrored_bogie_changes_nothing(random_bogies, seed, model, C_s):
+def test_running_the_mirrored_bogie_changes_nothing(random_vehicles, seed, model, C_s):
     # Front and rear exchanged, and the sense of yaw with them: negative levers in the same elements.
-    p = bogie(random_bogies, seed)
+    p = bogie(random_vehicles, seed)
     mirrored = {**p, **{name: -p[name] for name in ("a", "a_0", "b_0", "b_3")}}
-    one, other = (characteristic(x, **model).core(C_s) for x in (p, mirrored))
+    one, other = (model.at(x).coupled.polynomial(C_s) for x in (p, mirrored))
     assert one == pytest.approx(other, rel=1e-13)
 
 
 @few
 @given(seeds, MODELS)
-def test_only_the_square_of_the_damper_arm_counts(random_bogies, seed, model):
+def test_only_the_square_of_the_damper_arm_counts(random_vehicles, seed, model):
     # Half the arm with four times stiffness and damping is the same yaw damper.
-    p = bogie(random_bogies, seed)
+    p = bogie(random_vehicles, seed)
     near = {**p, "b_3": p["b_3"] / 2, "K_ds": p["K_ds"] * 4}
-    same_answer(critical_damping(p, **model), critical_damping(near, **model), C_s=4)
+    same_answer(critical_damping(model.at(p)), critical_damping(model.at(near)), C_s=4)
 
 
 @few
 @given(seeds, st.floats(2, 8).map(lambda x: 10**x))
-def test_a_massless_motor_is_no_motor(random_bogies, seed, C_s):
-    p = bogie(random_bogies, seed)
+def test_a_massless_motor_is_no_motor(random_vehicles, seed, C_s):
+    p = bogie(random_vehicles, seed)
     light = {**p, **{name: p[name] * 1e-9 for name in ("M_m", "J_m", "K_m", "K_mphi", "C_m", "C_mphi", "K_dm")}}
-    s = np.linalg.eigvals(core_matrix(light, C_s, kind="power", equations="reciprocal"))
-    trailer = np.linalg.eigvals(state_matrix(p, C_s, kind="trailer"))
+    vehicle = Model().at(light, C_s=C_s)
+    s = motion_eigenvalues(vehicle, vehicle.coupled)
+    trailer = np.linalg.eigvals(state_matrix(Model("trailer").at(p, C_s=C_s)))
     apart = np.abs(trailer[:, None] - s[None, :]).min(axis=1)
     assert np.all(apart < 1e-3 * (1 + np.abs(trailer)))
 
 
 @few
 @given(seeds, MODELS, st.lists(st.floats(2, 8).map(lambda x: 10**x), min_size=1, max_size=4))
-def test_stable_intervals_are_those_of_the_eigenvalues(random_bogies, seed, model, dampings):
-    p = bogie(random_bogies, seed)
-    found = critical_damping(p, **model)
+def test_stable_intervals_are_those_of_the_eigenvalues(random_vehicles, seed, model, dampings):
+    p = bogie(random_vehicles, seed)
+    found = critical_damping(model.at(p))
     for C_s in dampings:
         if all(abs(C_s / x.C_s - 1) > 1e-6 for x in found.critical):
-            stable = np.all(np.linalg.eigvals(state_matrix(p, C_s, **model)).real < 0)
+            stable = np.all(np.linalg.eigvals(state_matrix(model.at(p, C_s=C_s))).real < 0)
             assert any(lo < C_s < hi for lo, hi in found.stable_intervals) == stable

@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 from itertools import pairwise
+from unittest.mock import patch
 
 import casadi as ca
 import numpy as np
@@ -9,7 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from yawdesign.hunting.routh import damped_more, decays_faster, is_stable, routh_column, sector_column
+from yawdesign.hunting import routh
+from yawdesign.hunting.routh import count_unstable, damped_more, decays_faster, is_stable, routh_column, sector_column
 from yawdesign.vehicle.polynomials import multiply, product
 
 real_roots = st.floats(-300, 300).filter(lambda x: abs(x) > 1)
@@ -109,3 +111,87 @@ def test_graph_equals_numbers():
 def test_sector_of_no_damping_is_the_half_plane():
     p = (6.0, 11.0, 7.0, 3.0, 1.0)
     assert is_stable(sector_column(p, 0.0)) == is_stable(routh_column(p))
+
+
+# (polynomial, highest power first; roots not in the left half-plane), each with a row of zeros
+ZERO_ROWS = [
+    ((1, 2, 24, 48, -25, -50), 3),  # Ogata, section 5.6: 1, -1, 5j, -5j, -2
+    ((1, 7, 6, 42, 8, 56), 4),  # Nise, example 6.4: the factor s^4 + 6 s^2 + 8
+    ((1, 1, 12, 22, 39, 59, 48, 38, 20), 6),  # Nise, example 6.5: the factor s^4 + 3 s^2 + 2, and two more on the right
+    ((1, 0, 4), 2),
+    ((1, 0, -4), 1),
+    ((1, 0, 6, 0, 25), 2),  # 1 + 2j, 1 - 2j and their mirror images
+    ((1, 3, 4, 12, 0), 3),
+    ((1, 0), 1),
+    ((1, 0, 0), 2),
+]
+
+
+@pytest.mark.parametrize(("down", "unstable"), ZERO_ROWS)
+def test_counts_after_a_row_of_zeros(down, unstable):
+    assert count_unstable(tuple(map(float, down[::-1]))) == unstable
+
+
+small = st.integers(1, 9)
+axis_pairs = st.lists(small, max_size=2).map(lambda sizes: [(w * w, 0, 1) for w in sizes])
+mirrored = st.lists(small, max_size=2).map(lambda sizes: [(-a * a, 0, 1) for a in sizes])
+mirrored_pairs = st.lists(st.tuples(small, small), max_size=1).map(
+    lambda pairs: [f for a, b in pairs for f in ((a * a + b * b, -2 * a, 1), (a * a + b * b, 2 * a, 1))]
+)
+at_zero = st.integers(0, 2).map(lambda n: [(0, 1)] * n)
+stable_ones = st.lists(st.tuples(small, st.integers(0, 9)), max_size=3).map(
+    lambda found: [(a * a + b * b, 2 * a, 1) if b else (a, 1) for a, b in found]
+)
+unstable_ones = st.lists(st.tuples(small, st.integers(0, 9)), max_size=2).map(
+    lambda found: [(a * a + b * b, -2 * a, 1) if b else (-a, 1) for a, b in found]
+)
+
+
+def exactly_counted(p):
+    """Return what is counted in exact rationals: in a unit of time of 1 no number is rounded."""
+    with patch.object(routh, "TIME_UNIT", 1):
+        return count_unstable(tuple(map(Fraction, p)))
+
+
+def roots_on_the_right(*factors):
+    return sum((len(f) - 1) * (f[-2] < 0) for f in factors)
+
+
+@settings(max_examples=400, deadline=None)
+@given(axis_pairs, mirrored, mirrored_pairs, at_zero, stable_ones, unstable_ones)
+def test_counts_of_products_of_known_factors(axis, real, pairs, zero, left, right):
+    undamped = 2 * len(axis) + len(zero)
+    beyond = len(real) + roots_on_the_right(*pairs, *right)
+    p = product([*axis, *real, *pairs, *zero, *left, *right])
+    # The scheme may break down, and says so; in exact numbers it is never wrong.
+    assert exactly_counted(p) in (-1, beyond + undamped)
+    # A row that is zero but for rounding is not taken for zero: then roots on the axis may fall to either side.
+    found = count_unstable(tuple(map(float, p)))
+    assert found == -1 or beyond + len(zero) <= found <= beyond + undamped
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.sets(small, max_size=3), at_zero, stable_ones)
+def test_different_pairs_on_the_axis_are_all_counted(sizes, zero, left):
+    # The array is that of the rest times a factor: every row before the one of zeros has a first entry.
+    p = product([*((w * w, 0, 1) for w in sizes), *zero, *left])
+    assert exactly_counted(p) == 2 * len(sizes) + len(zero)
+
+
+@settings(max_examples=200, deadline=None)
+@given(mirrored, mirrored_pairs, stable_ones, unstable_ones)
+def test_mirrored_roots_off_the_axis_are_counted_in_spite_of_rounding(real, pairs, left, right):
+    found = count_unstable(tuple(map(float, product([*real, *pairs, *left, *right]))))
+    assert found in (-1, len(real) + roots_on_the_right(*pairs, *right))
+
+
+@pytest.mark.parametrize(
+    "factors",
+    [
+        [(4, 0, 1), (4, 0, 1), (1, 1)],  # 2j twice: another row of zeros
+        [(4, 0, 0, 0, 1)],  # 1 + j and its three images: a first entry that is zero
+        [(1, 1, 1, 1, 1)],
+    ],
+)
+def test_where_the_scheme_breaks_down_it_says_so(factors):
+    assert count_unstable(tuple(map(float, product(factors)))) == -1

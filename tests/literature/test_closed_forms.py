@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from yawdesign.hunting.old import core_matrix
+from yawdesign.hunting.eigenvalues import dense, motion_eigenvalues
 from yawdesign.vehicle.elements import Link, Mass, Spring, WheelRailContact
-from yawdesign.vehicle.old import StateSpace, characteristic
+from yawdesign.vehicle.state_space import StateSpace
+from yawdesign.vehicle.vehicle import Model
 
 # m, I, k_y, k_psi, f_11, f_22, b, lambda, r, W; then the critical frequency [Hz] and speed [m/s]
 PAPER_LIKE = {"m": 3085.0, "I": 2024.0, "k_y": 1e6, "k_psi": 1.21e6, "f_11": 11.511e6, "f_22": 11.511e6, "b": 0.7465}
@@ -34,7 +35,7 @@ def wheelset(q, v):
 
 def modes(elements):
     system = StateSpace(elements)
-    return np.linalg.eigvals(system.fill(np.zeros((system.size, system.size))))
+    return np.linalg.eigvals(dense(system.A, system.size))
 
 
 def critical_speed(of_speed, low, high):
@@ -75,7 +76,8 @@ def test_bogie_on_an_immovable_frame_is_a_single_wheelset(table1):
     p = {**table1, **rigid, "K_1x": 1.21e6 / table1["b_1"] ** 2, "K_1y": 1e6}
 
     def wheelset_modes(v):
-        s = np.linalg.eigvals(core_matrix({**p, "v": v}, 1e6, kind="trailer"))
+        vehicle = Model("trailer").at(p, v=v, C_s=1e6)
+        s = motion_eigenvalues(vehicle, vehicle.coupled)
         return s[(np.abs(s.imag) > 10) | (s.real < -0.1)]  # the frame's own two modes stand at +-1j and +-1.1j
 
     v, omega = critical_speed(wheelset_modes, 20.0, 60.0)
@@ -107,7 +109,7 @@ def test_klingel():
 def test_klingel_of_a_rigid_bogie(table1, rational, exact_roots):
     # Wheelsets fixed in the frame, no suspension to the body, slow; the stiffness takes all digits of a double.
     soft = {"K_2x": 1e-9, "K_2y": 1e-9, "C_t": 1e-9, "W": 1e-9, "K_1x": 1e15, "K_1y": 1e15, "v": 0.01}
-    s = exact_roots(characteristic(rational({**table1, **soft}), kind="trailer").A)
+    s = exact_roots(Model("trailer").at(rational({**table1, **soft})).coupled.coefficients[0])
     expected = 2 * math.pi * math.sqrt(0.625 * 0.7465 / 0.15 * (1 + (1.25 / 0.7465) ** 2))
     assert expected == pytest.approx(21.61240, rel=1e-6)
     assert wavelength(s, 0.01) == pytest.approx(expected, rel=1e-5)

@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from yawdesign.hunting.eigenvalues import dense
 from yawdesign.hunting.routh import decays_faster
 from yawdesign.vehicle.assembly import polynomial_matrix
 from yawdesign.vehicle.determinant import Determinant
-from yawdesign.vehicle.elements import Dashpot, Link, Mass, Pair, Spring, WheelRailContact
-from yawdesign.vehicle.old import StateSpace, folded, physical
+from yawdesign.vehicle.elements import Dashpot, Link, Mass, Pair, Spring, WheelRailContact, folded, physical
+from yawdesign.vehicle.state_space import StateSpace
 
 M_W, M_F, I_W, I_FY, I_FR = 1022.0, 2918.0, 678.0, 6780.0, 6780.0
 K1, K2, K3, K4, K5, K6 = 1.823e6, 3.646e6, 3.646e6, 182.3e3, 333.3e3, 2.710e6
@@ -41,7 +42,7 @@ def cooperrider(v):
 
 def modes(v):
     system = StateSpace(physical(cooperrider(v)))
-    return np.linalg.eigvals(system.fill(np.zeros((system.size, system.size))))
+    return np.linalg.eigvals(dense(system.A, system.size))
 
 
 def test_linear_critical_speed():

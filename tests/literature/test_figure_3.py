@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.hunting.old import critical_damping
+from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.vehicle.vehicle import Vehicle
 
 PRINTED = yd.table1(equations="as-printed")
 # Of Table I's K_m and M_m; C_m is proportional to it while xi_m is held.
@@ -47,9 +48,9 @@ def test_part_a_with_the_damping_ratio_held_folds_back_in_a_narrow_notch():
     assert set(count[(f > 3.2259) & (f < 3.2301)]) == {3}
     assert set(count[(f < 3.225) | (f > 3.232)]) == {1}
     found = curve(f_m=[3.229, 3.3], hold="xi_m")[0]
-    p = dict(PRINTED.bogie.parameters())
-    p |= {"v": 300 / 3.6, "K_m": p["M_m"] * (2 * np.pi * 3.229) ** 2, "C_m": p["C_m"] * 3.229 / PAPER_FREQUENCY}
-    single = critical_damping(p, kind="power", equations="as-printed")
+    (vehicle,) = Vehicle.of(PRINTED)
+    K_m, C_m = vehicle.p["M_m"] * (2 * np.pi * 3.229) ** 2, vehicle.p["C_m"] * 3.229 / PAPER_FREQUENCY
+    single = critical_damping(vehicle.replace(v=300 / 3.6, K_m=K_m, C_m=C_m))
     assert found == pytest.approx([x.C_s / 1e3 for x in single.critical], rel=1e-9)
     assert found[::2] == pytest.approx([106, 267], rel=0.01)
 

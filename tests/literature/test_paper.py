@@ -5,14 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from yawdesign.hunting.old import critical_damping
+from yawdesign.hunting.critical_damping import critical_damping
+from yawdesign.vehicle.vehicle import Model
 
-PRINTED = {"kind": "power", "equations": "as-printed"}
+PRINTED = Model(equations="as-printed")
 
 
 def values(p):
     """Return the critical values in kN s/m."""
-    return [x.C_s / 1e3 for x in critical_damping(p, **PRINTED).critical]
+    return [x.C_s / 1e3 for x in critical_damping(PRINTED.at(p)).critical]
 
 
 def test_table_3(table1):
@@ -27,13 +28,13 @@ def test_table_3(table1):
 
 
 def test_the_reaction_that_is_not_printed_changes_table_3(table1):
-    (whole,) = critical_damping(table1).critical
+    (whole,) = critical_damping(Model().at(table1)).critical
     assert whole.C_s == pytest.approx(63_607.41, abs=0.01)
 
 
 @pytest.mark.parametrize("kmh", [250, 300])
 def test_the_design_value_is_stable(table1, kmh):
-    intervals = critical_damping({**table1, "v": kmh / 3.6}, **PRINTED).stable_intervals
+    intervals = critical_damping(PRINTED.at(table1, v=kmh / 3.6)).stable_intervals
     assert any(low < 1_046_770 < high for low, high in intervals)
 
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.response.run.system import system_at
 from yawdesign.vehicle.assembly import polynomial_matrix
 from yawdesign.vehicle.polynomials import evaluate
+from yawdesign.vehicle.vehicle import Vehicle
 
 DESIGN = yd.table1(equations="as-printed").replace(C_s="1 046 770 N s/m")
 OMEGA = 6.0  # y = sin 6t
@@ -35,9 +35,9 @@ def test_a_weak_damper_does_not_settle():
     assert "UNSTABLE" in run.verdict
 
 
-def prescribed(system):
+def prescribed(vehicle):
     """Return the frame's lateral and yaw amplitude when the front wheelset itself is moved by sin(omega t)."""
-    entries = polynomial_matrix(system.elements)
+    entries = polynomial_matrix(vehicle.physical)
     rows = list(dict.fromkeys(row for row, _ in entries))
     matrix = np.zeros((len(rows), len(rows)), dtype=complex)
     for (row, column), p in entries.items():
@@ -51,7 +51,7 @@ def prescribed(system):
 def test_table_2_ratio_of_lateral_to_yaw():
     """Printed 2.895 / 0.282 = 10.27 (ADAMS 9.99); the two ways in which sin 6t can enter lie on either side of it."""
     problem = yd.table1(equations="as-printed")
-    y_b, phi_b = prescribed(system_at(problem, 250 / 3.6))
+    y_b, phi_b = prescribed(Vehicle.of(problem)[0].replace(v=250 / 3.6))
     assert y_b / phi_b == pytest.approx(9.90, abs=0.005)
     rms = yd.simulate(problem, yd.Sinusoid("1 m"), speed="250 km/h", start="stationary", duration=20 * np.pi / 3).rms
     ratio = rms["y_b_acceleration"] / rms["phi_b_acceleration"]
@@ -63,6 +63,6 @@ def test_table_2_absolute_values_are_not_those_of_any_simple_reading():
     """With an amplitude of 1 m they are six to seven times, with 1 mm a hundredth of what is printed."""
     problem = yd.table1(equations="as-printed")
     rms = yd.simulate(problem, "sinusoid", speed="250 km/h", duration=20 * np.pi / 3).rms
-    y_b, _ = prescribed(system_at(problem, 250 / 3.6))
+    y_b, _ = prescribed(Vehicle.of(problem)[0].replace(v=250 / 3.6))
     for lateral in (rms["y_b_acceleration"], OMEGA**2 * y_b / np.sqrt(2)):
         assert 6 < lateral / 2.895 < 7

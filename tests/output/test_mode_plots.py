@@ -2,6 +2,7 @@
 
 import io
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -85,6 +86,13 @@ def test_a_positive_yaw_turns_the_front_to_the_left(modes):
 
 
 @pytest.mark.slow
+def test_a_body_without_an_outline_is_not_drawn(modes):
+    mode = find_mode(modes, "frame yaw")
+    shape = {name: value for name, value in mode.shape.items() if name not in ("y_m1", "phi_m1")}
+    drawn = bodies(modes, replace(mode, shape={**shape, "y_c": 1.0, "phi_c": 0.1, "th_c": 0.0}))
+    assert drawn == tuple(body for k, body in enumerate(bodies(modes, mode)) if k != 2)
+
+
 def test_gif_has_one_cycle(modes):
     picture = Image.open(io.BytesIO(gif(modes)))
     assert picture.n_frames == FRAMES

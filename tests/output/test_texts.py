@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 import yawdesign as yd
 from yawdesign.cli import app
 from yawdesign.exports.c_files import ascii_text
-from yawdesign.output.plots import literal, write_picture
+from yawdesign.output.pictures import literal, write_picture
 from yawdesign.output.tables import rendered
 
 PROBLEM = Path(__file__).parents[2] / "problems" / "table1.yaml"

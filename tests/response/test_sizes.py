@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.response.modes import followed_modes as following
+from yawdesign.response.modes import followed_modes
 from yawdesign.response.run import frequency, simulate
-from yawdesign.response.run import time_steps as march
-from yawdesign.response.track import text_file
+from yawdesign.response.track import text_sheets
+from yawdesign.response.track.lines import MOST_STEPS
 
 PROBLEM = yd.table1().replace(C_s=1e6)
 
@@ -23,13 +23,13 @@ def test_a_file_that_is_too_large(tmp_path, monkeypatch):
     file = tmp_path / "track.csv"
     file.write_text("distance [m], alignment [mm]\n" + "\n".join(f"{k / 4}, {k % 7}" for k in range(100)))
     assert len(yd.read_track(file).distance) == 100
-    monkeypatch.setattr(text_file, "MOST_BYTES", 100)
+    monkeypatch.setattr(text_sheets, "MOST_BYTES", 100)
     with pytest.raises(yd.ProblemError, match="larger than"):
         yd.read_track(file)
 
 
 def test_too_many_values_to_follow_modes_over(monkeypatch):
-    monkeypatch.setattr(following, "motion", None)  # no work begins
+    monkeypatch.setattr(followed_modes, "folded_matrix", None)  # no work begins
     with pytest.raises(yd.ProblemError, match="v: 10001 values are too many: at most 10000"):
         yd.follow_modes(PROBLEM, v=np.linspace(20, 80, 10_001))
 
@@ -41,7 +41,7 @@ def test_too_many_wavelengths(monkeypatch):
 
 
 def test_a_sample_that_is_too_long():
-    with pytest.raises(yd.ProblemError, match=f"length: .* at most {march.MOST_STEPS}"):
+    with pytest.raises(yd.ProblemError, match=f"length: .* at most {MOST_STEPS}"):
         yd.spectrum_check(length=1e12)
 
 

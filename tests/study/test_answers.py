@@ -4,20 +4,23 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from yawdesign.study.question import Question
 
 import yawdesign as yd
+from yawdesign.hunting.certificate import certify
 from yawdesign.hunting.many import critical_values
-from yawdesign.hunting.many.parameter_sets import Block
-from yawdesign.hunting.old import certify
-from yawdesign.study import answers as points
+from yawdesign.problem.conditions import Condition
 from yawdesign.study.answers import evaluate
+from yawdesign.study.request import Question
+from yawdesign.vehicle.vehicle import Model
 
 SPEEDS = yd.SpeedRange(min="200 km/h", max="300 km/h", steps=3)
 
 
-def question(of, model, **more):
-    return Question(of, model["kind"], model["equations"], **{"speeds": (300 / 3.6,), **more})
+PRINTED = Model(equations="as-printed")
+
+
+def at_speeds(speeds):
+    return tuple(Condition((("v", float(v)),)) for v in speeds)
 
 
 def drawn(random_bogies, model, n, seed):
@@ -25,7 +28,7 @@ def drawn(random_bogies, model, n, seed):
     rows = [p for p, _ in random_bogies(n, seed=seed, spread=2.0)]
     damping = 10 ** np.random.default_rng(seed).uniform(4, 7, n)
     motor = ("M_m", "J_m", "K_m", "C_m", "K_mphi", "C_mphi", "K_dm", "a_0")
-    names = [name for name in rows[0] if model["kind"] == "power" or name not in motor]
+    names = [name for name in rows[0] if model.kind == "power" or name not in motor]
     return {name: np.array([p[name] for p in rows]) for name in names} | {"C_s": damping}
 
 
@@ -36,8 +39,8 @@ def row(columns, name, k):
 
 def problems(p, model, **more):
     n = len(p["W"])
-    base = yd.table1(equations=model["equations"])
-    if model["kind"] == "trailer":
+    base = yd.table1(equations=model.equations)
+    if model.kind == "trailer":
         base = yd.table1(kind="trailer")
     for k in range(n):
         values = {name: float(x[k]) for name, x in p.items()}
@@ -45,10 +48,11 @@ def problems(p, model, **more):
 
 
 @pytest.mark.parametrize("of", ["stable", "decay_rate", "damping_ratio"])
-def test_verdicts_and_margins(random_bogies, model, of):
+def test_verdicts_and_margins(random_bogies, vehicle_model, of):
+    model = vehicle_model
     p = drawn(random_bogies, model, 25, seed=2)
-    variables = () if model["kind"] == "trailer" else ("C_s", "C_mphi")
-    answers = evaluate(question(of, model, variables=variables), p)
+    variables = () if model.kind == "trailer" else ("C_s", "C_mphi")
+    answers = evaluate(Question(of, model, variables=variables), p)
     assert not answers.unverified.any()
     for problem, value in zip(problems(p, model), answers.columns[of], strict=True):
         names = {name: yd.Variable(min=1.0, max=1e9) for name in variables}
@@ -59,13 +63,15 @@ def test_verdicts_and_margins(random_bogies, model, of):
 
 @pytest.mark.parametrize("speed", [None, SPEEDS], ids=["one speed", "three speeds"])
 @pytest.mark.slow
-def test_designs(random_bogies, model, speed):
+def test_designs(random_bogies, vehicle_model, speed):
+    model = vehicle_model
     p = drawn(random_bogies, model, 25, seed=3)
     p.pop("C_s")
     curve = yd.table1().curve
-    asked = question("design", model, curve=curve, **({"speeds": speed.values} if speed else {}))
+    conditions = at_speeds(speed.values) if speed else (Condition(()),)
+    asked = Question("design", model, conditions, curve=curve)
     answers = evaluate(asked, {name: x for name, x in p.items() if not (speed and name == "v")})
-    short = evaluate(question("C_sl", model, curve=curve, speeds=asked.speeds), {
+    short = evaluate(Question("C_sl", model, conditions, curve=curve), {
         name: x for name, x in p.items() if not (speed and name == "v")
     })  # fmt: skip
     assert np.array_equal(short.columns["C_sl"], answers.columns["C_sl"], equal_nan=True)
@@ -78,9 +84,9 @@ def test_designs(random_bogies, model, speed):
             assert answers.columns[name][k] == pytest.approx(np.nan if value is None else value, rel=1e-8, nan_ok=True)
 
 
-def test_critical_values_of_the_reference_bogies(case, of_case):
-    p, model = of_case(case)
-    answers = evaluate(question("critical", model), p)
+def test_critical_values_of_the_reference_bogies(case, vehicle_of_case):
+    vehicle = vehicle_of_case(case)
+    answers = evaluate(Question("critical", vehicle.model), vehicle.p)
     assert row(answers.columns, "critical", 0) == pytest.approx(case["critical_C_s"], rel=1e-8)
     assert row(answers.columns, "omega", 0) == pytest.approx(case["crossing_omega"], rel=1e-8)
     assert row(answers.columns, "unstable_roots", 0).tolist() == case["unstable_roots_per_interval"]
@@ -88,11 +94,11 @@ def test_critical_values_of_the_reference_bogies(case, of_case):
 
 
 @pytest.mark.slow
-def test_critical_values_are_certified(random_bogies):
+def test_critical_values_are_certified(random_vehicles):
     recomputed = 0
-    for p, model in random_bogies(40, seed=11):
-        answers = evaluate(question("critical", model), p)
-        expected = certify({name: Fraction(value) for name, value in p.items()}, **model)
+    for vehicle in random_vehicles(40, seed=11):
+        answers = evaluate(Question("critical", vehicle.model), vehicle.p)
+        expected = certify(vehicle.model.at({name: Fraction(value) for name, value in vehicle.p.items()}))
         assert row(answers.columns, "critical", 0) == pytest.approx([x.C_s for x in expected.critical], rel=1e-9)
         assert tuple(row(answers.columns, "unstable_roots", 0)) == expected.unstable_roots
         assert not answers.unverified[0]
@@ -101,11 +107,10 @@ def test_critical_values_are_certified(random_bogies):
 
 
 def test_what_fails_its_check_is_computed_with_many_digits(table1, monkeypatch):
-    model = {"kind": "power", "equations": "as-printed"}
     p = table1 | {"f_11": table1["f_11"] * np.array([1.0, 0.7])}
-    expected = evaluate(question("critical", model), p)
+    expected = evaluate(Question("critical", PRINTED), p)
     monkeypatch.setattr(critical_values, "ACCURATE", 0.0)
-    mended = evaluate(question("critical", model), p)
+    mended = evaluate(Question("critical", PRINTED), p)
     assert mended.recomputed.all()
     assert not mended.unverified.any()
     assert not expected.recomputed.any()
@@ -114,20 +119,18 @@ def test_what_fails_its_check_is_computed_with_many_digits(table1, monkeypatch):
 
 
 def test_a_verdict_on_the_boundary_is_not_trusted(table1):
-    model = {"kind": "power", "equations": "as-printed"}
     C_s = 90702.8897786979 * np.array([0.999, 1.0, 1.001])
-    answers = evaluate(question("stable", model), table1 | {"C_s": C_s})
+    answers = evaluate(Question("stable", PRINTED), table1 | {"C_s": C_s})
     assert answers.recomputed.tolist() == [False, True, False]
     assert answers.columns["stable"][[0, 2]].tolist() == [False, True]
 
 
 @pytest.mark.parametrize("name", ["C_m", "C_t", "C_s"])
 def test_a_damper_without_damping(table1, name):
-    model = {"kind": "power", "equations": "reciprocal"}
     for value in (0.0, np.array([0.0, 1e4])):
         p = table1 | {"C_s": 1e5, name: value}
         for of in ("stable", "decay_rate"):
-            answers = evaluate(question(of, model), p)
+            answers = evaluate(Question(of, Model()), p)
             problem = yd.table1().replace(**{"C_s": 1e5, name: 0.0, "speed": table1["v"]})
             expected = getattr(yd.stability(problem), of)
             assert float(answers.columns[of][0]) == pytest.approx(float(expected), rel=1e-8)
@@ -135,27 +138,38 @@ def test_a_damper_without_damping(table1, name):
 
 
 def test_undamped_motors(table1):
-    model = {"kind": "power", "equations": "reciprocal"}
     p = table1 | {"C_mphi": np.array([0.0, 1e4]), "C_s": 1e6}
-    assert evaluate(question("stable", model), p).columns["stable"].tolist() == [False, True]
-    answers = evaluate(question("design", model, curve=yd.table1().curve), p)
+    assert evaluate(Question("stable", Model()), p).columns["stable"].tolist() == [False, True]
+    answers = evaluate(Question("design", Model(), curve=yd.table1().curve), p)
     assert answers.columns["status"].tolist() == ["motor yaw undamped", "ok"]
 
 
 def test_blocks_and_threads_do_not_matter(table1, monkeypatch):
-    model = {"kind": "power", "equations": "as-printed"}
     p = table1 | {"K_m": np.linspace(4e5, 2e6, 50)}
-    whole = evaluate(question("critical", model), p)
-    monkeypatch.setattr(points, "LENGTH", 7)
+    whole = evaluate(Question("critical", PRINTED), p)
+    monkeypatch.setattr("yawdesign.study.answers.LENGTH", 7)
     for threads in (1, 3):
-        parts = evaluate(question("critical", model), p, threads=threads)
+        parts = evaluate(Question("critical", PRINTED), p, threads=threads)
         for name, column in whole.columns.items():
             assert parts.columns[name] == pytest.approx(column, rel=1e-10, nan_ok=True)
 
 
-def test_block():
-    block = Block(values={"W": 2.0, "K_m": np.array([1.0, 2.0, 3.0]), "C_m": 0.0}, size=3)
-    assert block.point(1) == {"W": 2.0, "K_m": 2.0, "C_m": 0.0}
-    assert block.zeros == {"C_m"}
-    assert block.part(np.array([True, False, True])).size == 2
-    assert [b.size for b in Block.split(block.values, 2)] == [2, 1]
+def test_an_answer_holds_under_every_condition(table1):
+    p = {name: x for name, x in table1.items() if name != "v"} | {"C_s": np.geomspace(1e5, 3e6, 20)}
+    conditions = tuple(
+        Condition((("v", v), ("lambda", conicity), ("creep_factor", factor)))
+        for v, conicity, factor in ((70.0, 0.05, 1.0), (83.0, 0.25, 0.7), (90.0, 0.15, 0.5))
+    )
+    for of in ("stable", "decay_rate", "damping_ratio"):
+        whole = evaluate(Question(of, Model(), conditions, variables=("C_s",)), p)
+        parts = [
+            evaluate(Question(of, Model(), variables=("C_s",)), condition.applied(p)).columns[of]
+            for condition in conditions
+        ]
+        assert np.array_equal(whole.columns[of], np.min(parts, axis=0))
+    design = evaluate(Question("design", Model(), conditions, curve=yd.table1().curve), {**p, "C_s": 0.0})
+    chosen = {**p, "C_s": design.columns["C_s"][0]}
+    assert design.columns["status"].tolist() == ["ok"]
+    assert all(evaluate(Question("stable", Model()), c.applied(chosen)).columns["stable"].all() for c in conditions)
+    below = {**chosen, "C_s": 0.999 * design.columns["C_sl"][0]}
+    assert not evaluate(Question("stable", Model(), conditions), below).columns["stable"].any()

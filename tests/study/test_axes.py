@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import yawdesign as yd
+from yawdesign.problem.conditions import Condition
 from yawdesign.study.axes import ROWS, applied, block, damping_ratio, read_axis, read_values
 from yawdesign.study.request import request
 
@@ -185,14 +186,35 @@ def test_what_a_question_needs():
     between = yd.table1().replace(speed=yd.SpeedRange(min=60, max=90))
     assert "one speed, or an axis v" in mistakes(problem=between, lambda_=[0.1, 0.2])["speed"]
     assert asked(problem=between, v=[70, 80]).size == 2
-    assert asked(of="C_sl", problem=between, lambda_=[0.1, 0.2]).task.question.speeds == pytest.approx(between.speeds)
+
+
+def conditions(**arguments):
+    """Return the conditions of a question as mappings."""
+    return [dict(x.changes) for x in asked(**arguments).task.question.conditions]
+
+
+def test_an_axis_replaces_the_condition_of_its_name():
+    between = yd.table1().replace(speed=yd.SpeedRange(min=60, max=90))
+    assert conditions(of="C_sl", problem=between, lambda_=[0.1, 0.2]) == [{"v": v} for v in between.speeds]
+    assert conditions(of="C_sl", problem=between, v=[70, 80]) == [{}]
+    assert conditions(of="critical_speed", problem=between, lambda_=[0.1, 0.2]) == [{}]
+    question = asked(of="stable", problem=between, C_s=[1e5, 1e6]).about("critical_speed", ()).task.question
+    assert question.conditions == (Condition(()),)
+
+
+def test_the_other_conditions_stay(monkeypatch):
+    several = tuple(Condition((("v", v), ("lambda", x))) for v in (70.0, 80.0) for x in (0.1, 0.2))
+    monkeypatch.setattr("yawdesign.study.request.conditions", lambda problem: several)
+    assert conditions(of="C_sl", v=[70, 80]) == [{"lambda": 0.1}, {"lambda": 0.2}]
+    assert conditions(of="C_sl", lambda_=[0.3, 0.4]) == [{"v": 70.0}, {"v": 80.0}]
+    assert len(conditions(of="C_sl", f_m=[1, 2])) == 4
 
 
 def test_the_range_of_critical_speeds():
-    assert asked(of="critical_speed", lambda_=[0.1, 0.2]).task.question.speeds == pytest.approx([10 / 3.6, 600 / 3.6])
+    question = asked(of="critical_speed", lambda_=[0.1, 0.2]).task.question
+    assert question.searched == pytest.approx([10 / 3.6, 600 / 3.6])
     between = yd.table1().replace(speed=yd.SpeedRange(min=60, max=90))
-    speeds = asked(of="critical_speed", problem=between, lambda_=[0.1, 0.2]).task.question.speeds
-    assert (speeds[0], speeds[-1]) == (60, 90)
+    assert asked(of="critical_speed", problem=between, lambda_=[0.1, 0.2]).task.question.searched == (60, 90)
 
 
 def test_computed_parameters_stay_in_their_range():

@@ -9,7 +9,7 @@ import pytest
 
 import yawdesign as yd
 from yawdesign.problem import ProblemError
-from yawdesign.study import executors as chunks
+from yawdesign.study import executors
 from yawdesign.study import sweep as sweeps
 from yawdesign.study.axes import ROWS
 from yawdesign.study.request import QUANTITIES, request
@@ -113,14 +113,14 @@ def test_the_critical_lines_hold_what_the_sweep_holds():
 @pytest.mark.parametrize("error", [ValueError("of the lines"), MemoryError("too little")])
 def test_a_fault_after_the_last_point_costs_the_lines_alone(monkeypatch, error):
     expected = sweeps.swept(BOGIES["power"], "C_sl", [("v", [70.0, 80.0])])
-    computed = chunks.answer
+    computed = executors.answer
 
     def fails(task, *arguments):
         if task.question.of == "critical":
             raise error
         return computed(task, *arguments)
 
-    monkeypatch.setattr(chunks, "answer", fails)
+    monkeypatch.setattr(executors, "answer", fails)
     with pytest.warns(RuntimeWarning, match="the sweep itself is whole"):
         result = sweeps.swept(BOGIES["power"], "C_sl", [("v", [70.0, 80.0])])
     assert result.boundary is None
@@ -131,14 +131,14 @@ def test_a_fault_after_the_last_point_costs_the_lines_alone(monkeypatch, error):
 
 
 def test_a_stop_after_the_last_point_costs_none(monkeypatch):
-    computed = chunks.answer
+    computed = executors.answer
 
     def stopped(task, *arguments):
         if task.question.of == "critical":
             raise KeyboardInterrupt
         return computed(task, *arguments)
 
-    monkeypatch.setattr(chunks, "answer", stopped)
+    monkeypatch.setattr(executors, "answer", stopped)
     with pytest.raises(yd.IncompleteSweepError) as caught:
         sweeps.swept(BOGIES["power"], "C_sl", [("v", [70.0, 80.0])])
     assert caught.value.interrupted

@@ -11,7 +11,7 @@ import pytest
 from distributed import Client, KilledWorker, LocalCluster
 
 import yawdesign as yd
-from yawdesign.study import executors as chunks
+from yawdesign.study import executors
 from yawdesign.study import sweep as sweeps
 from yawdesign.study.executors import workers
 
@@ -30,12 +30,12 @@ def same(result, expected):
 
 
 class Counted:
-    """Count the points that are computed, and break after some chunks."""
+    """Count the points that are computed, and break after some executors."""
 
     def __init__(self, monkeypatch, after=10**9, error=KeyboardInterrupt):
         self.points, self.calls, self.after, self.error = 0, 0, after, error
-        self.answer = chunks.answer
-        monkeypatch.setattr(chunks, "answer", self)
+        self.answer = executors.answer
+        monkeypatch.setattr(executors, "answer", self)
 
     def __call__(self, task, point, *more):
         self.calls += 1
@@ -157,7 +157,7 @@ def test_a_signal_in_the_computation_of_the_lines_keeps_the_whole(monkeypatch):
 
     def asked(request, **options):
         if request.of == "critical":
-            monkeypatch.setattr(chunks, "answer", lambda *_: signal.raise_signal(signal.SIGTERM))
+            monkeypatch.setattr(executors, "answer", lambda *_: signal.raise_signal(signal.SIGTERM))
         return answered(request, **options)
 
     monkeypatch.setattr(sweeps, "answered", asked)

@@ -7,9 +7,23 @@ import pytest
 
 from yawdesign.vehicle.assembly import polynomial_matrix
 from yawdesign.vehicle.determinant import Determinant
-from yawdesign.vehicle.elements import Dashpot, Link, Mass, Maxwell, Pair, Spring, WheelRailContact, parallel
-from yawdesign.vehicle.old import StateSpace, bogie, folded, physical
+from yawdesign.vehicle.elements import (
+    Dashpot,
+    Link,
+    Mass,
+    Maxwell,
+    Pair,
+    Spring,
+    WheelRailContact,
+    folded,
+    parallel,
+    physical,
+)
 from yawdesign.vehicle.polynomials import evaluate, scale_variable, trim
+from yawdesign.vehicle.state_space import StateSpace, fill
+from yawdesign.vehicle.vehicle import Model
+
+INNER = ("11", "21", "12", "22")  # front and rear of the front bogie, then of the rear one
 
 
 def determinant(elements):
@@ -19,7 +33,7 @@ def determinant(elements):
 
 def matrix(elements):
     system = StateSpace(elements)
-    return system.fill(np.zeros((system.size, system.size)))
+    return fill(system.A, np.zeros((system.size, system.size)))
 
 
 def by_size(values):
@@ -142,18 +156,17 @@ def test_folding_separates_sums_from_differences():
 
 
 @pytest.mark.parametrize("equations", ["as-printed", "reciprocal"])
-def test_the_paper_bogie_folded_is_the_physical_one(table1, equations, rational):
-    p = rational({**table1, "C_s": 1e6})
-    elements = bogie(p, equations=equations)
-    assert trim(determinant(folded(elements))) == trim(determinant(physical(elements)))
+def test_the_paper_bogie_folded_is_the_physical_one(table1, equations, rational_vehicle):
+    vehicle = rational_vehicle(Model(equations=equations).at(table1, C_s=1e6))
+    assert trim(determinant(vehicle.folded)) == trim(determinant(vehicle.physical))
 
 
 def test_the_printed_equations_lack_one_reaction(table1):
-    p = {**table1, "C_s": 1e6}
-    printed, whole = (physical(bogie(p, equations=e)) for e in ("as-printed", "reciprocal"))
-    coordinates = StateSpace(printed).coordinates
+    p = table1
+    printed, whole = (Model(equations=e).at(p, C_s=1e6) for e in ("as-printed", "reciprocal"))
+    coordinates = printed.state_space.coordinates
     row, columns = 10 + coordinates.index("phi_b"), [coordinates.index(x) for x in ("phi_m1", "phi_m2")]
-    difference = matrix(whole) - matrix(printed)
+    difference = matrix(whole.physical) - matrix(printed.physical)
     others = np.delete(difference, row, axis=0)
     assert not others.any()
     expected = np.zeros(25)
@@ -164,6 +177,40 @@ def test_the_printed_equations_lack_one_reaction(table1):
     assert difference[row] == pytest.approx(expected, rel=1e-9, abs=1e-9)
 
 
-def test_sizes(table1, model):
-    p = {**table1, "C_s": 1e6}
-    assert matrix(physical(bogie(p, **model))).shape == ((25, 25) if model["kind"] == "power" else (15, 15))
+def test_sizes(table1, vehicle_model):
+    vehicle = vehicle_model.at(table1, C_s=1e6)
+    assert matrix(vehicle.physical).shape == ((25, 25) if vehicle_model.kind == "power" else (15, 15))
+
+
+def test_a_pair_that_holds_pairs(two_bogies, exact_determinant):
+    elements = two_bogies(10)
+    ends, halves = physical(elements), folded(elements)
+    names = {e.coordinate for e in ends if isinstance(e, Mass)}
+    assert names == {"y_c", "phi_c"} | {
+        x + end for x, ends in (("y_b", "12"), ("phi_b", "12"), ("y_w", INNER), ("phi_w", INNER)) for end in ends
+    }
+    assert trim(determinant(halves)) == trim(determinant(ends))
+    size = StateSpace(ends).size
+    assert size == 2 * 14 + 4 + 4 + 2  # box dampers, lateral dampers, yaw dampers
+    for k in range(3):
+        s = Fraction(k + 1, 3)
+        assert evaluate(determinant(ends), s) == exact_determinant(ends, s) == exact_determinant(halves, s)
+
+
+def test_eigenvalues_of_a_pair_that_holds_pairs(two_bogies):
+    elements = two_bogies(10, float)
+    whole, halves = (np.linalg.eigvals(matrix(f(elements))) for f in (physical, folded))
+    apart = np.abs(whole[:, None] - halves[None, :])
+    assert max(*apart.min(axis=0), *apart.min(axis=1)) < 1e-9 * np.abs(whole).max()
+
+
+def test_links_of_a_pair_that_holds_pairs(two_bogies):
+    displacements = {e.name: e.displacement for e in physical(two_bogies(1)) if isinstance(e, Link) and e.name}
+    l, b_0, a = Fraction(17, 2), Fraction(3, 10), Fraction(5, 4)  # noqa: E741
+    assert displacements["lateral damper 11"] == {"y_b1": 1, "phi_b1": b_0, "y_c": -1, "phi_c": -l - b_0}
+    assert displacements["lateral damper 21"] == {"y_b1": 1, "phi_b1": -b_0, "y_c": -1, "phi_c": -l + b_0}
+    assert displacements["lateral damper 12"] == {"y_b2": 1, "phi_b2": b_0, "y_c": -1, "phi_c": l - b_0}
+    assert displacements["lateral damper 22"] == {"y_b2": 1, "phi_b2": -b_0, "y_c": -1, "phi_c": l + b_0}
+    assert displacements["box damper 21"] == {"y_b1": 1, "y_w21": -1, "phi_b1": -a}
+    contacts = [e for e in physical(two_bogies(1)) if isinstance(e, WheelRailContact)]
+    assert [(e.y, e.alignment) for e in contacts] == [(f"y_w{end}", f"alignment_{end}") for end in INNER]

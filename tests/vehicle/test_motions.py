@@ -1,32 +1,38 @@
 """The characteristic polynomial against the paper's 22 x 22 matrix (7), exact arithmetic and eigenvalues."""
 
+from dataclasses import replace
+from fractions import Fraction
+
 import casadi as ca
 import flint
 import numpy as np
 import pytest
 
-from yawdesign.hunting.old import state_matrix
+from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.vehicle.assembly import polynomial_matrix
-from yawdesign.vehicle.elements import Mass
-from yawdesign.vehicle.old import StateSpace, bogie, characteristic, paper_coefficients, physical
-from yawdesign.vehicle.polynomials import evaluate, scale_variable
+from yawdesign.vehicle.elements import Dashpot, Link, Mass, Maxwell, Spring, folded
+from yawdesign.vehicle.motions import COUPLED, motions
+from yawdesign.vehicle.polynomials import evaluate, product, scale_variable
+from yawdesign.vehicle.state_space import fill
+from yawdesign.vehicle.vehicle import Model
 
 
-def paper_matrix(p, C_s, s, kind, equations):
+def paper_matrix(vehicle, s):
     """Return the matrix (7) of the paper, typed from its kappas; without motors, their rows and columns are struck out.
 
     kappa_11 to kappa_13 are not defined in the paper; and the motors' yaw reaction on the frame, which it lacks, is
     added for the reciprocal equations (docs/errata.md).
     """
-    k = kappas(p, C_s, s)
-    if kind == "trailer":
+    p, model = vehicle.p, vehicle.model
+    k = kappas(p, vehicle.C_s, s)
+    if model.kind == "trailer":
         k["0"] -= 2 * p["K_dm"] + 2 * p["K_m"]
         k["5"] -= 2 * p["K_dm"] * p["a_0"] ** 2 + 2 * p["K_m"] * p["a_0"] ** 2
-    elif equations == "reciprocal":
+    elif model.equations == "reciprocal":
         k["5"] += 2 * (p["K_mphi"] + p["C_mphi"] * s)
         k["motor_yaw"] = k["21"]
     rows = [line.split() for line in PAPER_MATRIX.strip().splitlines()]
-    keep = [i for i in range(22) if kind == "power" or i not in (*range(6, 10), *range(14, 18))]
+    keep = [i for i in range(22) if model.kind == "power" or i not in (*range(6, 10), *range(14, 18))]
     return [[0 if rows[i][j] == "." else k[rows[i][j]] for j in keep] for i in keep]
 
 
@@ -98,29 +104,23 @@ def kappas(p, C_s, s):
     }  # fmt: skip
 
 
-def exact_bogies(rational, random_bogies, table1, model):
-    yield rational({**table1, "C_s": 1e6})
-    for p, _ in random_bogies(3, spread=10, seed=7):
-        yield rational({**p, "C_s": 3e5})
-
-
-def test_equals_the_determinant_of_matrix_7(table1, model, rational, random_bogies):
+def test_equals_the_determinant_of_matrix_7(table1, vehicle_model, rational_vehicle, random_vehicles):
     # Two polynomials of degree 26 that agree at 30 points are the same polynomial: no tolerance is needed.
-    for p in exact_bogies(rational, random_bogies, table1, model):
-        down = paper_coefficients(p, p["C_s"], **model)
+    drawn = (vehicle_model.at(vehicle.p, C_s=3e5) for vehicle in random_vehicles(3, spread=10, seed=7))
+    for vehicle in map(rational_vehicle, [vehicle_model.at(table1, C_s=1e6), *drawn]):
+        down = vehicle.paper_coefficients()
         for k in range(30):
             s = flint.fmpq(7 * k - 60, 3)
-            expected = flint.fmpq_mat(paper_matrix(p, p["C_s"], s, **model)).det()
-            assert evaluate(down[::-1], s) == expected
+            assert evaluate(down[::-1], s) == flint.fmpq_mat(paper_matrix(vehicle, s)).det()
 
 
-def test_equals_the_determinant_of_matrix_7_in_floating_point(random_bogies):
+def test_equals_the_determinant_of_matrix_7_in_floating_point(random_vehicles):
     rng, worst = np.random.default_rng(3), 0.0
-    for p, model in random_bogies(60, seed=11):
-        C_s, s = 10 ** rng.uniform(4, 7), complex(*rng.normal(scale=100, size=2))
-        value = evaluate(paper_coefficients(p, C_s, **model)[::-1], s)
+    for drawn in random_vehicles(60, seed=11):
+        vehicle, s = drawn.replace(C_s=10 ** rng.uniform(4, 7)), complex(*rng.normal(scale=100, size=2))
+        value = evaluate(vehicle.paper_coefficients()[::-1], s)
         # Rows are scaled to order one, so that the product of their sizes does not overflow.
-        matrix = np.array(paper_matrix(p, C_s, s, **model))
+        matrix = np.array(paper_matrix(vehicle, s))
         size = np.abs(matrix).max(axis=1)
         ratio = np.linalg.det(matrix / size[:, None]) / (value / np.prod(size))
         worst = max(worst, abs(ratio - 1))
@@ -130,43 +130,43 @@ def test_equals_the_determinant_of_matrix_7_in_floating_point(random_bogies):
 COORDINATES = ("y_b", "phi_b", "y_w1", "phi_w1", "y_w2", "phi_w2", "y_m1", "phi_m1", "y_m2", "phi_m2")
 
 
-def our_compliance(p, C_s, s, model):
+def our_compliance(vehicle, s):
     """Return the displacements that unit forces cause, by the polynomial matrix and by the state matrix."""
-    elements = physical(bogie({**p, "C_s": C_s}, **model))
-    system, entries = StateSpace(elements), polynomial_matrix(elements)
+    system, entries = vehicle.state_space, polynomial_matrix(vehicle.physical)
     rows = list(dict.fromkeys([*system.coordinates, *(i for i, _ in entries)]))
     matrix = np.zeros((len(rows), len(rows)), dtype=complex)
     for (i, j), polynomial in entries.items():
         matrix[rows.index(i), rows.index(j)] = evaluate(polynomial, s)
     order = [system.coordinates.index(x) for x in COORDINATES if x in system.coordinates]
-    masses = {e.coordinate: e.m for e in elements if isinstance(e, Mass)}
+    masses = {e.coordinate: e.m for e in vehicle.physical if isinstance(e, Mass)}
     n = len(masses)
     push = np.zeros((system.size, n))
     push[n : 2 * n] = np.diag([1 / masses[x] for x in system.coordinates])
-    state = np.linalg.solve(s * np.eye(system.size) - system.fill(np.zeros((system.size,) * 2)), push)
+    state = np.linalg.solve(s * np.eye(system.size) - fill(system.A, np.zeros((system.size,) * 2)), push)
     pick = np.ix_(order, order)
     return np.linalg.inv(matrix)[pick], state[pick]
 
 
-def test_displacements_under_forces_are_those_of_matrix_7(table1, model, random_bogies):
+def test_displacements_under_forces_are_those_of_matrix_7(table1, vehicle_model, random_vehicles):
     # The determinant does not see the sign of a displacement; responses do.
     rng = np.random.default_rng(13)
-    for p in [table1, *(q for q, _ in random_bogies(10, seed=13))]:
-        C_s, s = 10 ** rng.uniform(4, 7), complex(*rng.normal(scale=50, size=2))
-        n = 10 if model["kind"] == "power" else 6
-        expected = np.linalg.inv(np.array(paper_matrix(p, C_s, s, **model)))[:n, :n]
+    for p in [table1, *(drawn.p for drawn in random_vehicles(10, seed=13))]:
+        vehicle = vehicle_model.at(p, C_s=10 ** rng.uniform(4, 7))
+        s = complex(*rng.normal(scale=50, size=2))
+        n = 10 if vehicle_model.kind == "power" else 6
+        expected = np.linalg.inv(np.array(paper_matrix(vehicle, s)))[:n, :n]
         size = np.sqrt(np.abs(np.outer(expected.diagonal(), expected.diagonal())))
-        for found in our_compliance(p, C_s, s, model):
+        for found in our_compliance(vehicle, s):
             assert np.max(np.abs(found - expected) / size) < 1e-9
 
 
 def test_without_yaw_damping_there_is_no_yaw_damper(table1):
-    assert StateSpace(physical(bogie(table1))).size == 24
+    assert Model().at(table1).state_space.size == 24
 
 
-def test_chi_are_27_and_the_last_does_not_know_the_damper(table1, model):
-    n = 26 if model["kind"] == "power" else 16
-    one, two = (paper_coefficients(table1, C_s, **model) for C_s in (1e5, 1e6))
+def test_chi_are_27_and_the_last_does_not_know_the_damper(table1, vehicle_model):
+    n = 26 if vehicle_model.kind == "power" else 16
+    one, two = (vehicle_model.at(table1, C_s=C_s).paper_coefficients() for C_s in (1e5, 1e6))
     assert len(one) == len(two) == n + 1
     assert all(x > 0 for x in one + two)
     assert one[-1] == two[-1]
@@ -174,7 +174,8 @@ def test_chi_are_27_and_the_last_does_not_know_the_damper(table1, model):
 
 
 def test_chi_in_another_unit_of_time(table1):
-    plain, scaled = paper_coefficients(table1, 1e6), paper_coefficients(table1, 1e6, unit=100.0)
+    vehicle = Model().at(table1, C_s=1e6)
+    plain, scaled = vehicle.paper_coefficients(), vehicle.paper_coefficients(unit=100.0)
     assert scaled == pytest.approx([x * 100.0 ** (26 - k) for k, x in enumerate(plain)], rel=1e-12)
 
 
@@ -187,14 +188,19 @@ def test_chi_in_another_unit_of_time(table1):
     ],
 )
 def test_degrees_and_factors(table1, kind, equations, degree, names):
-    c = characteristic(table1, kind=kind, equations=equations)
-    assert len(c.core(1e6)) - 1 == degree
-    assert len(c.A) == degree
-    assert len(c.B) == degree + 1
-    assert set(c.factors) == names
-    for factor in c.factors.values():
-        assert factor == pytest.approx((table1["K_mphi"], table1["C_mphi"], table1["J_m"]))
-    assert len(c.full(1e6)) - 1 == (15 if kind == "trailer" else 25)
+    vehicle = Model(kind, equations).at(table1, C_s=1e6)
+    coupled, *others = vehicle.motions
+    assert coupled is vehicle.coupled
+    assert coupled.varied
+    assert len(coupled.polynomial(1e6)) - 1 == degree
+    A, B = coupled.coefficients
+    assert len(A) == degree
+    assert len(B) == degree + 1
+    assert {motion.name for motion in others} == names
+    for motion in others:
+        assert not motion.varied
+        assert motion.polynomial(1e6) == pytest.approx((table1["K_mphi"], table1["C_mphi"], table1["J_m"]))
+    assert len(vehicle.polynomial) - 1 == (15 if kind == "trailer" else 25)
 
 
 def relative_error(float_polynomial, exact_polynomial):
@@ -209,22 +215,22 @@ def relative_error(float_polynomial, exact_polynomial):
 
 
 @pytest.mark.slow
-def test_every_coefficient_is_right_to_the_last_digits(random_bogies, rational):
+def test_every_coefficient_is_right_to_the_last_digits(random_vehicles, rational_vehicle):
     worst = 0.0
-    for p, model in random_bogies(300, spread=100, seed=5):
-        floats, exact = characteristic(p, **model), characteristic(rational(p), **model)
-        polynomials = [(floats.A, exact.A), (floats.B, exact.B)]
-        polynomials += zip(floats.factors.values(), exact.factors.values(), strict=True)
-        worst = max(worst, *(relative_error(x, y) for x, y in polynomials))
+    for vehicle in random_vehicles(300, spread=100, seed=5):
+        for floats, exact in zip(vehicle.motions, rational_vehicle(vehicle).motions, strict=True):
+            assert floats.name == exact.name
+            polynomials = zip(floats.coefficients, exact.coefficients, strict=True)
+            worst = max(worst, *(relative_error(x, y) for x, y in polynomials))
     # Gravity softens the wheelset's yaw: the only subtraction of the model.
     assert worst < 1e-12
 
 
-def test_roots_are_the_eigenvalues(random_bogies, rational, exact_roots):
-    for p, model in random_bogies(25, seed=2):
-        C_s = 3e5
-        expected = exact_roots(characteristic(rational(p), **model).full(flint.fmpq(300_000)))
-        found = np.linalg.eigvals(state_matrix(p, C_s, **model))
+def test_roots_are_the_eigenvalues(random_vehicles, rational_vehicle, exact_roots):
+    for drawn in random_vehicles(25, seed=2):
+        vehicle = drawn.replace(C_s=3e5)
+        expected = exact_roots(rational_vehicle(vehicle).polynomial)
+        found = np.linalg.eigvals(state_matrix(vehicle))
         assert len(found) == len(expected)
         # The double root of the model as printed is known to half the digits only.
         distance = np.abs(found[:, None] - expected[None, :])
@@ -232,23 +238,27 @@ def test_roots_are_the_eigenvalues(random_bogies, rational, exact_roots):
         assert np.all(distance.min(axis=0) < 1e-5 * (1 + np.abs(expected)))
 
 
-def test_any_number_type(table1, model, rational):
-    floats = characteristic(table1, **model)
-    exact = characteristic(rational(table1), **model)
-    stacked = characteristic({name: np.array([value, 2 * value]) for name, value in table1.items()}, **model)
+def test_any_number_type(table1, vehicle_model, rational):
     symbols = {name: ca.SX.sym(name) for name in table1}
-    graph = characteristic(symbols, **model)
-    for which in ("A", "B"):
-        plain = np.array([float(x) for x in getattr(floats, which)])
-        function = ca.Function("f", list(symbols.values()), [ca.vertcat(*map(ca.SX, getattr(graph, which)))])
-        assert np.array(function(*table1.values())).ravel() == pytest.approx(plain, rel=1e-14)
-        assert [np.ravel(x)[0] for x in getattr(stacked, which)] == pytest.approx(plain, rel=1e-14)
-        assert [float(flint.arb(x).mid()) for x in getattr(exact, which)] == pytest.approx(plain, rel=1e-13)
+    stacks = {name: np.array([value, 2 * value]) for name, value in table1.items()}
+    fractions = {name: Fraction(value) for name, value in table1.items()}
+    kinds = [vehicle_model.at(p).motions for p in (table1, stacks, symbols, rational(table1), fractions)]
+    for plain, stacked, graph, exact, fraction in zip(*kinds, strict=True):
+        assert {plain.name} == {motion.name for motion in (stacked, graph, exact, fraction)}
+        assert {plain.coordinates} == {motion.coordinates for motion in (stacked, graph, exact, fraction)}
+        for power, floats in enumerate(plain.coefficients):
+            function = ca.Function("f", [*symbols.values()], [ca.vertcat(*map(ca.SX, graph.coefficients[power]))])
+            assert np.array(function(*table1.values())).ravel() == pytest.approx(floats, rel=1e-14)
+            assert [np.ravel(x)[0] for x in stacked.coefficients[power]] == pytest.approx(floats, rel=1e-14)
+            assert [float(flint.arb(x).mid()) for x in exact.coefficients[power]] == pytest.approx(floats, rel=1e-13)
+            assert [flint.fmpq(x.numerator, x.denominator) for x in fraction.coefficients[power]] == [
+                *map(flint.fmpq, exact.coefficients[power])
+            ]
 
 
 def test_the_graph_stays_small(table1):
     symbols = {name: ca.SX.sym(name) for name in table1}
-    core = scale_variable(characteristic(symbols).core(ca.SX.sym("C_s")), 100.0)
+    core = scale_variable(Model().at(symbols).coupled.polynomial(ca.SX.sym("C_s")), 100.0)
     inputs = [*symbols.values(), *(x for x in ca.symvar(ca.vertcat(*core)) if x.name() == "C_s")]
     assert ca.Function("core", inputs, [ca.vertcat(*core)]).n_nodes() < 2000
 
@@ -257,3 +267,65 @@ def test_matrix_7_is_complete():
     rows = [line.split() for line in PAPER_MATRIX.strip().splitlines()]
     assert [len(row) for row in rows] == [22] * 22
     assert {x for row in rows for x in row if x.isdigit()} == {str(k) for k in range(29)}
+
+
+def test_two_yaw_dampers_make_a_motion_of_the_second_degree(two_frames, exact_determinant):
+    coupled, apart = motions(two_frames(0))
+    assert (coupled.name, coupled.coordinates) == (COUPLED, {"front", "rear", "body"})
+    assert len(coupled.coefficients) == 3
+    assert (apart.name, apart.coordinates, len(apart.coefficients)) == ("apart", {"apart"}, 1)
+    # Two polynomials in s of degree 12 that agree at 13 points are the same, and so in C_s at three.
+    for C_s in (Fraction(0), Fraction(3, 7), Fraction(1000), Fraction(-1, 50)):
+        elements = two_frames(C_s)
+        assert motions(elements) == (coupled, apart)  # the damping itself is not looked at
+        whole = product([coupled.polynomial(C_s), apart.polynomial(C_s)])
+        assert len(whole) <= 13
+        for k in range(13):
+            s = Fraction(2 * k - 11, 5)
+            assert evaluate(whole, s) == exact_determinant(elements, s)
+
+
+def test_two_yaw_dampers_with_floats(two_frames, rational):
+    for exact, floats in zip(motions(two_frames(0)), motions(two_frames(0, float)), strict=True):
+        for p, q in zip(exact.coefficients, floats.coefficients, strict=True):
+            assert q == pytest.approx([float(x) for x in p], rel=1e-14)
+
+
+def test_two_bogies_under_one_car_body(two_bogies, exact_determinant):
+    (coupled,) = motions(folded(two_bogies(0)))
+    assert len(coupled.coefficients) == 3
+    for C_s in (0, 5, 10**6):
+        elements, p = folded(two_bogies(C_s)), coupled.polynomial(Fraction(C_s))
+        assert all(evaluate(p, Fraction(s)) == exact_determinant(elements, Fraction(s)) for s in range(1, len(p) + 1))
+
+
+def test_degrees_in_the_yaw_damping(table1, vehicle_model):
+    coupled, *others = vehicle_model.at(table1).motions
+    assert len(coupled.coefficients) == 2
+    assert all(len(motion.coefficients) == 1 for motion in others)
+
+
+def test_the_yaw_damping_of_the_vehicle_does_not_enter_its_motions(table1, vehicle_model, rational_vehicle):
+    vehicle = rational_vehicle(vehicle_model.at(table1))
+    assert vehicle.motions == vehicle.replace(C_s=flint.fmpq(1_000_000)).motions
+
+
+@pytest.mark.parametrize("names", [("yaw damper 1", "yaw damper 1"), ("lateral damper", "yaw damper 2")])
+def test_two_dampers_of_one_name_are_refused(two_frames, names):
+    renamed = dict(zip(("yaw damper 1", "yaw damper 2"), names, strict=True))
+    elements = [replace(e, name=renamed.get(e.name, e.name)) if isinstance(e, Link) else e for e in two_frames(1)]
+    with pytest.raises(ValueError, match=f"two parts are called {names[0]}"):
+        motions(elements)
+
+
+def test_a_yaw_damper_without_a_name_is_refused(two_frames):
+    elements = [replace(e, name="") if isinstance(e, Link) and e.varied else e for e in two_frames(1)]
+    with pytest.raises(ValueError, match="no name, at front, body"):
+        motions(elements)
+
+
+@pytest.mark.parametrize("laws", [(Dashpot(2),), (Maxwell(3, 2), Spring(4)), (Maxwell(3, 2), Maxwell(3, 2))])
+def test_a_yaw_damper_is_one_damper_in_series_with_a_spring(two_frames, laws):
+    elements = [replace(e, laws=laws) if isinstance(e, Link) and e.varied else e for e in two_frames(1)]
+    with pytest.raises(ValueError, match="yaw damper 1 must be one damper"):
+        motions(elements)

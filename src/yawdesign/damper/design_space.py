@@ -118,11 +118,12 @@ class Space:
 
     def feasible(self, values: Values) -> Bools:
         """Return where the curve's limit is kept (within rounding)."""
-        kept = np.asarray(True)
-        for load in self.loads if self.curve is not None else ():
-            p = load.applied(values)
-            T = resisting_moment(p, p["C_s"], self.curve)
-            kept = kept & (self.curve.limit * resistance_scale(p, self.curve) * (1 + 1e-12) >= T)
+        kept, curve = np.asarray(True), self.curve
+        if curve is None:
+            return kept
+        for p in (load.applied(values) for load in self.loads):
+            allowed = curve.limit * resistance_scale(p, curve)
+            kept = kept & (allowed * (1 + 1e-12) >= resisting_moment(p, p["C_s"], curve))
         return kept
 
     def beats(self, values: Values, level: Float | float) -> Bools:

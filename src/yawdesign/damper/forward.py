@@ -21,7 +21,13 @@ ON_BOUNDARY = 1e-10  # largest residual of the scaled equations of the boundary 
 
 @dataclass(frozen=True)
 class Critical(CriticalValue):
-    """A critical value and the speed [m/s] it belongs to."""
+    """A critical value and the speed it belongs to.
+
+    Parameters
+    ----------
+    speed : float
+        Running speed [m/s].
+    """
 
     speed: float
 
@@ -108,7 +114,7 @@ def forward_design(vehicles: Sequence[Vehicle], curve: Curve | None) -> ForwardD
     decision = decide(crossings, most, np.array([others_stable(vehicles)]))
     C_sl, golden = (None if np.isnan(x[0]) else float(x[0]) for x in (decision.C_sl, decision.C_s))
     checked = all(sets.checked for sets in found) and (golden is None or _is_stable(vehicles, golden))
-    status = Status(decision.status[0]) if checked else Status.UNVERIFIED
+    status = Status.named(decision.status[0]) if checked else Status.UNVERIFIED
     C_s = golden if checked else None
     return ForwardDesign(
         critical=tuple(

@@ -174,7 +174,9 @@ class _Program:
     def _excess(self, values: Values) -> list[Any]:
         """Return by how much the moment exceeds what the curve allows, under each load."""
         curve = self.space.curve
-        loads = [load.applied(values) for load in self.space.loads] if curve else []
+        if curve is None:
+            return []
+        loads = [load.applied(values) for load in self.space.loads]
         return [resisting_moment(p, p["C_s"], curve) - curve.limit * resistance_scale(p, curve) for p in loads]
 
     @cached_property
@@ -223,8 +225,9 @@ class _Program:
 
     def _allowed(self, start: Values) -> list[float]:
         curve = self.space.curve
-        loads = [load.applied(start) for load in self.space.loads] if curve else []
-        return [curve.limit * resistance_scale(p, curve) for p in loads]
+        return (
+            [] if curve is None else [curve.limit * resistance_scale(x.applied(start), curve) for x in self.space.loads]
+        )
 
 
 def between_sx(low: float, high: float, x: ca.SX, size: float) -> ca.SX:

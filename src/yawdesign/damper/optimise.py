@@ -10,13 +10,14 @@ from yawdesign.damper.curving import excess
 from yawdesign.damper.design_space import Space, fraction, scale
 from yawdesign.damper.forward import ForwardDesign, design, forward_design, others_stable, resistance
 from yawdesign.damper.nlp import Improver
-from yawdesign.damper.search import Progress, distinct, refine, search
+from yawdesign.damper.search import distinct, refine, search
 from yawdesign.damper.status import Status
 from yawdesign.hunting.arrays import Bools, Float
 from yawdesign.hunting.hurwitz import hurwitz_minors
 from yawdesign.hunting.routh import TIME_UNIT, damped_more, decays_faster
 from yawdesign.hunting.verdict import Mode, Stability, stability_at
 from yawdesign.problem import Curve, Problem, ProblemError
+from yawdesign.problem.arguments import Progress
 from yawdesign.problem.result import Result
 from yawdesign.problem.table import as_seed
 from yawdesign.vehicle.polynomials import trim
@@ -42,7 +43,7 @@ class Bound:
     value, min, max : float
         In SI units; the bounds as written.
     position : float
-        Between its bounds, 0 ... 1, on the scale of the search: linear below the parameter's least usual value,
+        Between its bounds, 0 ... 1 [-], on the scale of the search: linear below the parameter's least usual value,
         geometric above.
     """
 
@@ -94,7 +95,7 @@ class Optimum(Result):
     hurwitz_positive : bool
         Whether all Hurwitz minors of eq. (10) are positive at the optimum, under every condition.
     margin_polynomial : float or None
-        The margin by Routh's array of the polynomial, found by bisection: the second route.
+        The margin by Routh's array of the polynomial, found by bisection: the second route [1/s], [-].
     checked : bool
         Whether both routes agree.
     load : str or None
@@ -277,7 +278,7 @@ def _margin_by_routh(space: Space, vehicles: Sequence[Vehicle], margin: float) -
     polynomials = [m.polynomial(vehicle.C_s) for vehicle in vehicles for m in vehicle.motions if m.name in movable]
 
     def exceeded(level: Float) -> Bools:
-        return np.all([np.broadcast_to(exceeds(p, level), level.shape) for p in polynomials], axis=0)
+        return np.asarray(np.all([np.broadcast_to(exceeds(p, level), level.shape) for p in polynomials], axis=0))
 
     if ratio and margin <= 0:  # the sector's scheme ends at zero
         return float("nan") if exceeded(np.zeros(1)) else margin

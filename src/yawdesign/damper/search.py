@@ -6,7 +6,7 @@ against the best margin of their own cell; of those that pass one gets its margi
 and so on until none is left.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Self
 
@@ -14,6 +14,7 @@ import numpy as np
 
 from yawdesign.damper.design_space import Space
 from yawdesign.hunting.arrays import Float, Index
+from yawdesign.problem.arguments import Progress
 
 BLOCK = 100_000  # points at once: enough to hide Python's overhead, few enough for any memory
 CELLS = 6  # cells per axis in up to three variables, each with a best point of its own; in all about 6^3
@@ -25,8 +26,6 @@ GAIN = 1e-4  # what a cell's best must be beaten by, relative: smaller differenc
 MOST_LOOKS = 40  # at the points of a block; as half of them are better than any one, about ten are needed
 MOST_TRIES = 12  # the same for a stencil, where near an optimum verdicts and margins differ by rounding
 MOST_SPLIT = 9  # variables whose axes are divided into cells: their number doubles with each
-
-Progress = Callable[[str, float], None]
 
 
 @dataclass

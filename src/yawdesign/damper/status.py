@@ -33,9 +33,9 @@ class Status(StrEnum):
         return member
 
     @classmethod
-    def _missing_(cls, value: object) -> Self | None:
+    def named(cls, word: str) -> Self:
         """Return the kind of a word: where two have it, that of the forward design."""
-        return next((member for member in cls if str(member) == value), None)
+        return next(member for member in cls if str(member) == word)
 
     OK = "ok", "the design interval (C_sl, C_su) is stable throughout"
     STABLE_FOR_EVERY = (

@@ -1,1 +1,1 @@
-"""A problem's functions as files for other codes."""
+"""For other codes: a problem's functions as files."""

@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from string import Template
 
+from yawdesign.exports.file_contents import ExportNames
 from yawdesign.exports.functions import Documented, work_sizes
-from yawdesign.exports.names import ExportNames
 from yawdesign.exports.symbolic_function import Port
 from yawdesign.exports.templates import EXAMPLE, HEADER, MAKEFILE, SELF_TEST
 from yawdesign.problem.characters import printable

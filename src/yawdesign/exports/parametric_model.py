@@ -9,9 +9,9 @@ from yawdesign.problem import PARAMETERS, Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.running import CURVE
+from yawdesign.problem.table import key_of
 from yawdesign.vehicle.vehicle import Model, Vehicle
 
-ALIASES = {"lambda_": "lambda", "speed": "v"}
 LEAST_DAMPING = 1.0  # N s/m: as good as none, where a free damping cannot be 0
 
 
@@ -88,7 +88,7 @@ class ParametricModel:
 
 
 def _known(names: Collection[str], allowed: Collection[str]) -> set[str]:
-    keys = [ALIASES.get(name, name) for name in names]
+    keys = ["v" if name == "speed" else key_of(name) for name in names]
     mistakes = Mistakes()
     for key in keys:
         with mistakes.under(f"inputs: {key}"):

@@ -6,13 +6,12 @@ from os import PathLike
 from pathlib import Path
 
 from yawdesign.exports import c_files
-from yawdesign.exports.file_contents import FileContents, Unavailable
+from yawdesign.exports.file_contents import PREFIX, ExportNames, FileContents, Unavailable
 from yawdesign.exports.fmu.archive import write_fmu
 from yawdesign.exports.folder import check_place, exported_folder, write_text
 from yawdesign.exports.functions import c_source, functions, listed, self_test, versions
 from yawdesign.exports.manifest import write_manifest
 from yawdesign.exports.matlab import write_mat
-from yawdesign.exports.names import PREFIX, ExportNames
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result

@@ -37,7 +37,7 @@ class CriticalValue:
     becomes : {"stable", "unstable", "neither"}
         What the bogie becomes when C_s grows through the value.
     residual : float
-        Backward error of the characteristic polynomial at (C_s, j omega).
+        Backward error of the characteristic polynomial at (C_s, j omega) [-].
     """
 
     C_s: float

@@ -26,7 +26,22 @@ def state_matrix(vehicle: Vehicle) -> Float:
     -------
     ndarray, shape (..., n, n)
     """
-    return _dense(vehicle.state_space.A, vehicle.state_space.size)
+    return dense(vehicle.state_space.A, vehicle.state_space.size)
+
+
+def folded_matrix(vehicle: Vehicle) -> Float:
+    """Return the state matrix of a vehicle in half sums and half differences of both ends, in which motions are apart.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        With numbers or arrays that broadcast against each other.
+
+    Returns
+    -------
+    ndarray, shape (..., n, n)
+    """
+    return dense(vehicle.folded_state_space.A, vehicle.folded_state_space.size)
 
 
 def motion_matrix(vehicle: Vehicle, motion: Motion) -> Float:
@@ -37,7 +52,7 @@ def motion_matrix(vehicle: Vehicle, motion: Motion) -> Float:
     vehicle : Vehicle
         With numbers or arrays that broadcast against each other.
     motion : Motion
-        One of its motions.
+        One of its motions, or of its model's; its polynomial is not looked at.
 
     Returns
     -------
@@ -45,12 +60,25 @@ def motion_matrix(vehicle: Vehicle, motion: Motion) -> Float:
     """
     system = vehicle.folded_state_space
     place = {state: k for k, state in enumerate(system.states_of(motion.coordinates))}
-    return _dense({(place[i], place[j]): x for (i, j), x in system.A.items() if i in place and j in place}, len(place))
+    return dense({(place[i], place[j]): x for (i, j), x in system.A.items() if i in place and j in place}, len(place))
 
 
-def _dense(entries: Mapping[tuple[int, int], Any], size: int) -> Float:
-    shape = np.broadcast_shapes(*(np.shape(value) for value in entries.values()))
-    return np.asarray(fill(entries, np.zeros((*shape, size, size))))
+def dense(entries: Mapping[tuple[int, int], Any], rows: int, columns: int | None = None) -> Float:
+    """Return entries as a matrix, a square one if no number of columns is given; as a stack, if they are arrays.
+
+    Parameters
+    ----------
+    entries : mapping (row, column) -> number or array
+        What is not zero.
+    rows, columns : int
+        Size of the matrix.
+
+    Returns
+    -------
+    ndarray, shape (..., rows, columns)
+    """
+    shape = np.broadcast_shapes(*{getattr(value, "shape", ()) for value in entries.values()})
+    return np.asarray(fill(entries, np.zeros((*shape, rows, rows if columns is None else columns))))
 
 
 def motion_eigenvalues(vehicle: Vehicle, motion: Motion) -> Complex:
@@ -60,7 +88,8 @@ def motion_eigenvalues(vehicle: Vehicle, motion: Motion) -> Complex:
 
 def eigenvalues(vehicle: Vehicle) -> Complex:
     """Return all eigenvalues of a vehicle of floats [1/s], the least damped first, conjugates together."""
-    return in_order(np.concatenate([motion_eigenvalues(vehicle, motion) for motion in vehicle.motions]))
+    # What belongs to a motion is the model's: the polynomials of these numbers are not needed.
+    return in_order(np.concatenate([motion_eigenvalues(vehicle, motion) for motion in vehicle.model.motions]))
 
 
 def in_order(s: Complex) -> Complex:

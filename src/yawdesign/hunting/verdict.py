@@ -63,7 +63,7 @@ class Stability(Result):
     modes : tuple of Mode
         The same as frequencies and damping.
     fixed_modes : mapping name -> tuple of complex
-        The roots that no design variable moves, and that of the two yaw dampers working against each other.
+        The roots [1/s] that no design variable moves, and that of the two yaw dampers working against each other.
     C_s, speed : float
         Damping of the pair of yaw dampers [N s/m] and speed [m/s] to which this belongs.
     unstable_roots : int
@@ -118,11 +118,18 @@ def stability(problem: Problem) -> Stability:
     >>> round(yd.stability(yd.table1(equations="as-printed")).spectral_abscissa, 8)
     -1.29853702
     """
+    return least_stable(problem)[1]
+
+
+def least_stable(problem: Problem) -> tuple[Vehicle, Stability]:
+    """Return a problem's vehicle at the speed of the least decay rate, and its stability. As in `stability`."""
     given_damping(problem)
     variables = problem.design.variables
-    found = zip(conditions(problem), (stability_at(vehicle, variables) for vehicle in Vehicle.of(problem)), strict=True)
-    condition, worst = min(found, key=lambda pair: (pair[1].stable, pair[1].decay_rate))
-    return replace(worst, worst_condition=condition.described)
+    found = [
+        (vehicle, replace(stability_at(vehicle, variables), worst_condition=condition.described))
+        for condition, vehicle in zip(conditions(problem), Vehicle.of(problem), strict=True)
+    ]
+    return min(found, key=lambda pair: (pair[1].stable, pair[1].decay_rate))
 
 
 def stability_at(vehicle: Vehicle, variables: Collection[str] = ()) -> Stability:

@@ -1,1 +1,1 @@
-"""What is shown: tables."""
+"""What is shown: tables, pictures, files, and where they go."""

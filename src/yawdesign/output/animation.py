@@ -5,8 +5,8 @@ import math
 from pathlib import Path
 
 from yawdesign.output.mode_plots import mode_shape
+from yawdesign.output.pictures import ANIMATIONS, own_texts
 from yawdesign.output.plan_view import COLOURS, REST, Body, Corner, bodies, caption, find_mode, half_size, subtitle
-from yawdesign.output.plots import ANIMATIONS, own_texts
 from yawdesign.output.targets import Target, checked_targets
 from yawdesign.problem.whole_files import write_whole
 from yawdesign.response.modes.named_modes import Modes, NamedMode

@@ -4,8 +4,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from yawdesign.output.plots import new_axes
-from yawdesign.output.sweep_plots import COLOURS, STABLE, UNSTABLE, legend_below
+from yawdesign.output.pictures import new_axes
+from yawdesign.output.sweep_style import COLOURS, STABLE, UNSTABLE, legend_below
 from yawdesign.output.tables import margin
 from yawdesign.problem import PARAMETERS, ProblemError, format_quantity, to_unit
 

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from yawdesign.output.pictures import new_axes
 from yawdesign.output.plan_view import COLOURS, REST, Body, bodies, caption, find_mode, half_size, subtitle
-from yawdesign.output.plots import new_axes
-from yawdesign.problem import PARAMETERS, ProblemError, to_unit
+from yawdesign.problem import ProblemError, to_unit
 from yawdesign.problem.table import as_choice
+from yawdesign.study.axes import ROWS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -102,12 +103,10 @@ def mode_paths(
 
 def axis_in_unit(result: "FollowedModes") -> tuple[np.ndarray[Any, Any], str]:
     """Return the values of the axis as people see them, and its label."""
-    unit = "km/h" if result.axis == "v" else PARAMETERS[result.axis].unit
-    symbol = "v" if result.axis == "v" else PARAMETERS[result.axis].symbol
-    name = "running speed" if result.axis == "v" else PARAMETERS[result.axis].meaning
-    values = np.array([to_unit(float(value), unit) for value in result.values])
-    shown = f" [{unit}]" if unit.strip("-") else ""
-    return values, f"{name}, ${symbol}${shown}"
+    row = ROWS[result.axis]
+    values = np.array([to_unit(float(value), row.unit) for value in result.values])
+    shown = f" [{row.unit}]" if row.unit.strip("-") else ""
+    return values, f"{row.meaning}, ${row.symbol}${shown}"
 
 
 def _is_geometric(values: np.ndarray[Any, Any]) -> bool:

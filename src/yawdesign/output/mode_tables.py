@@ -7,8 +7,9 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from yawdesign.output.tables import damping, speed
-from yawdesign.problem import PARAMETERS, format_quantity
+from yawdesign.output.tables import damping, speed, verified
+from yawdesign.problem import format_quantity
+from yawdesign.study.axes import ROWS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -36,9 +37,8 @@ def modes_tables(result: "Modes") -> RenderableType:
         frequency = f"{mode.frequency:.3f}" if mode.frequency else "-"
         numbers = (frequency, f"{100 * mode.damping_ratio:.2f}", f"{mode.decay_rate:.4g}")
         table.add_row(mode.name, *numbers, _shares(mode.participation))
-    checked = "yes, by two independent ways" if result.checked else "NO: the two ways differ"
     hunting = result.hunting or "none: nothing that oscillates depends on the conicity"
-    return Group(table, Text(f"hunting: {hunting}"), Text(f"checked: {checked}"))
+    return Group(table, Text(f"hunting: {hunting}"), Text(f"checked: {verified(result.checked)}"))
 
 
 def _shares(participation: "Mapping[str, float]") -> str:
@@ -68,7 +68,7 @@ def _number(value: float) -> str:
 
 
 def _shown(result: "FollowedModes", value: float) -> str:
-    return format_quantity(value, "km/h" if result.axis == "v" else PARAMETERS[result.axis].unit, 4)
+    return format_quantity(value, ROWS[result.axis].unit, 4)
 
 
 def _meeting(result: "FollowedModes", k: int) -> str:

@@ -1,6 +1,6 @@
 """A bogie seen from above: what its bodies look like, and where a mode puts them."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from yawdesign.response.modes.named_modes import Modes, NamedMode
 
 Corner = tuple[float, float]
+Outlines = Callable[[Mapping[str, float]], tuple[tuple[Corner, ...], ...]]
 AMPLITUDE = 0.16  # drawn size of the largest displacement, relative to the half wheelbase
 COLOURS = {"frame": "#4c72b0", "wheelset": "#555555", "motor": "#dd8452"}
 REST = "#c8ccd2"
@@ -55,18 +56,22 @@ def find_mode(result: "Modes", name: str | None) -> "NamedMode":
 
 
 def bodies(result: "Modes", mode: "NamedMode") -> tuple[Body, ...]:
-    """Return the bodies of a bogie, moved as in a mode; the frame last, on top of the others."""
+    """Return the bodies of a vehicle, moved as in a mode, the last on top; one without an outline here is not drawn."""
     p, size = result.parameters, AMPLITUDE * result.parameters["a"]
     shape = {x: size * value for x, value in mode.shape.items()}
-    ends = [("1", 1.0), ("2", -1.0)]
-    found = [Body("wheelset", sign * p["a"], _wheelset(p), *_moved(shape, "w" + end)) for end, sign in ends]
-    if "y_m1" in shape:
-        found += [Body("motor", sign * p["a_0"], _motor(p), *_moved(shape, "m" + end)) for end, sign in ends]
-    return (*found, Body("frame", 0.0, _frame(p), *_moved(shape, "b")))
+    return tuple(
+        Body(kind, x, outlines(p), shape.get(f"y_{body}", 0j), shape.get(f"phi_{body}", 0j))
+        for body, kind, x, outlines in _drawn(p)
+        if {f"y_{body}", f"phi_{body}"} & set(shape)
+    )
 
 
-def _moved(shape: Mapping[str, complex], body: str) -> tuple[complex, complex]:
-    return shape[f"y_{body}"], shape[f"phi_{body}"]
+def _drawn(p: Mapping[str, float]) -> tuple[tuple[str, str, float, Outlines], ...]:
+    """Return what is known here: a body's name in coordinates, its kind, its place [m] and its outlines."""
+    a, a_0 = p["a"], p.get("a_0", 0.0)
+    wheelsets = ("w1", "wheelset", a, _wheelset), ("w2", "wheelset", -a, _wheelset)
+    motors = ("m1", "motor", a_0, _motor), ("m2", "motor", -a_0, _motor)
+    return (*wheelsets, *motors, ("b", "frame", 0.0, _frame))
 
 
 def _wheelset(p: Mapping[str, float]) -> tuple[tuple[Corner, ...], ...]:

@@ -1,25 +1,13 @@
 """Pictures of results. Every function draws into Matplotlib axes and returns them; nothing is computed or shown."""
 
-import io
-from collections.abc import Iterator
-from contextlib import contextmanager
 from importlib import import_module
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from unicodedata import category
 
-from yawdesign.problem import ProblemError
+from yawdesign.output.pictures import own_texts
 from yawdesign.problem.arguments import checked, refused
-from yawdesign.problem.whole_files import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-PICTURES = (".png", ".pdf", ".svg")
-ANIMATIONS = (".gif", ".svg")
-DOTS_PER_INCH = 150
-# Whatever a user's matplotlibrc says: the texts hold Matplotlib's own mathematics, which LaTeX does not understand.
-TEXTS = {"text.usetex": False, "text.parse_math": True}
 
 # What draws which kind of result, as module and function.
 DRAWN_BY: dict[str, tuple[str, str]] = {
@@ -67,53 +55,3 @@ def plot(result: Any, ax: "Axes | None" = None, **options: Any) -> "Axes":
     with own_texts():
         axes: Axes = checked(getattr(import_module(home), name))(result, ax=ax, **options)
     return axes
-
-
-@contextmanager
-def own_texts() -> Iterator[None]:
-    """Let Matplotlib set the texts that are made meanwhile."""
-    import matplotlib
-
-    with matplotlib.rc_context(TEXTS):  # type: ignore[arg-type]
-        yield
-
-
-def literal(text: str) -> str:
-    """Return a text as Matplotlib shows it letter by letter: what users write is no mathematics.
-
-    Examples
-    --------
-    >>> literal("costs $5") == "costs " + chr(92) + "$5"
-    True
-    """
-    shown = (sign if sign.isprintable() or category(sign) == "Zs" else "?" for sign in text)
-    return "".join(shown).replace("$", r"\$")
-
-
-def check_pictures(*paths: Path | None) -> None:
-    """Raise a ProblemError if there are pictures to draw, and Matplotlib does not start."""
-    name = next((path for path in paths if path is not None), None)
-    if name is None:
-        return
-    try:
-        import_module("matplotlib.figure")
-    except Exception as error:  # noqa: BLE001 - a faulty setting of the user's shows itself in many ways
-        raise ProblemError(f"{name} cannot be drawn, Matplotlib does not start: {error}") from None
-
-
-def write_picture(axes: "Axes", path: Path, *, replace: bool = False) -> None:
-    """Write the figure of some axes as in `whole_file`; the ending of the name, one of `PICTURES`, tells how."""
-    content = io.BytesIO()
-    figure: Any = axes.get_figure(root=True)
-    with own_texts():
-        figure.savefig(content, format=path.suffix[1:].lower(), dpi=DOTS_PER_INCH)
-    write_whole(path, content.getvalue(), replace=replace)
-
-
-def new_axes(ax: "Axes | None") -> "Axes":
-    """Return the axes given, or those of a new figure that no window shows."""
-    if ax is not None:
-        return ax
-    from matplotlib.figure import Figure
-
-    return Figure(figsize=(7.0, 4.5), layout="constrained").add_subplot()

@@ -1,10 +1,12 @@
 """Pictures of the bogie in motion: frequency responses, time histories, spectra, and the yaw damper's stiffness."""
 
 from collections.abc import Sequence
+from math import degrees
 from typing import TYPE_CHECKING
 
-from yawdesign.output.plots import literal, new_axes
+from yawdesign.output.pictures import literal, new_axes
 from yawdesign.problem import ProblemError, format_quantity
+from yawdesign.vehicle.signals import DIRECTIONS, ENDS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -27,8 +29,6 @@ SHOWN = {
     "N": (1e-3, "kN"),
 }
 BODIES = {"b": "frame", "w1": "front wheelset", "w2": "rear wheelset", "m1": "front motor", "m2": "rear motor"}
-DIRECTIONS = {"y": "lateral", "phi": "yaw"}
-ENDS = {"1": "front", "2": "rear"}
 
 
 def meaning(name: str) -> str:
@@ -101,7 +101,7 @@ def frequency_response(result: "FrequencyResponse", ax: "Axes | None" = None) ->
     right = ax.twinx()
     of = {"alignment": "m of alignment", "cross_level": "rad of cross-level"}[result.input]
     for axes, name, colour, unit in ((ax, "y_b", LATERAL, "m"), (right, "phi_b", YAW, "rad")):
-        axes.plot(result.frequency, abs(getattr(result, name)), color=colour, lw=1.4)
+        axes.plot(result.frequency, abs(result.amplitudes[name]), color=colour, lw=1.4)
         axes.set_ylabel(f"{_first_capital(meaning(name))} [{unit} per {of}]", color=colour)
         axes.tick_params(axis="y", colors=colour)
         axes.set_ylim(bottom=0)
@@ -151,7 +151,7 @@ def damper_component(result: "DamperComponent", ax: "Axes | None" = None) -> "Ax
     right = ax.twinx()
     f = [z.frequency for z in result.over_frequency]
     ax.plot(f, [z.stiffness / 1e6 for z in result.over_frequency], "o-", color=LATERAL, ms=3.5)
-    right.plot(f, [57.29577951308232 * z.phase for z in result.over_frequency], "s--", color=YAW, ms=3.5)
+    right.plot(f, [degrees(z.phase) for z in result.over_frequency], "s--", color=YAW, ms=3.5)
     ax.axhline(result.K_ds / 1e6, color="0.5", lw=0.8, ls=":")
     ax.annotate(
         "stiffness of the joints", (f[-1], result.K_ds / 1e6), ha="right", va="bottom", color="0.4", fontsize="small"

@@ -1,21 +1,21 @@
 """Tables of runs and of the yaw damper as a component."""
 
 from collections.abc import Iterator, Mapping
+from math import degrees
 from typing import TYPE_CHECKING
 
 from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from yawdesign.output.response_plots import BODIES, SHOWN, meaning
-from yawdesign.output.tables import _checked, _facts, _table, damping, speed
+from yawdesign.output.response_plots import SHOWN, meaning
+from yawdesign.output.tables import damping, facts, speed, titled, verified
 from yawdesign.problem import format_quantity
+from yawdesign.vehicle.vehicle import known_coordinates
 
 if TYPE_CHECKING:
     from yawdesign.response.run.damper_component import DamperComponent
     from yawdesign.response.run.simulate import Simulation
-
-DEGREES = 57.29577951308232
 
 
 def simulation_tables(result: "Simulation") -> RenderableType:
@@ -30,7 +30,7 @@ def simulation_tables(result: "Simulation") -> RenderableType:
 
 def _growth(result: "Simulation") -> Table:
     title = "Free motions: growth (+) or decay (-)"
-    table = _table(title, "speed", "fitted [1/s]", "eigenvalue [1/s]", "hunting [Hz]", "its damping [%]")
+    table = titled(title, "speed", "fitted [1/s]", "eigenvalue [1/s]", "hunting [Hz]", "its damping [%]")
     for one in result.runs:
         frequency = "none" if one.frequency is None else f"{one.frequency:.3f}"
         ratio = "" if one.damping_ratio is None else f"{100 * one.damping_ratio:.2f}"
@@ -48,7 +48,7 @@ def _frame(result: "Simulation") -> Table:
     title = "The frame in these runs and, RMS by integral over the spectrum, in an endless one (mm, mrad)"
     names = ("y_b", "phi_b")
     columns = [what for name in names for what in (f"{name} RMS", "peak", "endless")]
-    table = _table(title, "speed", *columns, "start")
+    table = titled(title, "speed", *columns, "start")
     for one in result.runs:
         cells = [
             "" if values is None else f"{1e3 * values[name]:.4g}"
@@ -61,10 +61,10 @@ def _frame(result: "Simulation") -> Table:
 
 def _motions(result: "Simulation") -> Table:
     rates = ("", "_velocity", "_acceleration")
-    names = [name for name in result.rms if name.split("_")[-1] in BODIES]
+    names = [name for name in result.rms if name in known_coordinates()]
     columns = [what for rate in ("u", "u'", "u''") for what in (f"{rate} RMS", "peak")]
     title = f"Responses at {speed(result.speed)}: displacement u (mm, mrad), u' (mm/s, mrad/s), u'' (m/s², rad/s²)"
-    table = _table(title, "", *columns)
+    table = titled(title, "", *columns)
     for name in names:
         table.add_row(name, *(_shown(result, name + rate, values) for rate in rates for values in _both(result)))
     return table
@@ -79,7 +79,7 @@ def _shown(result: "Simulation", name: str, values: Mapping[str, float]) -> str:
 
 
 def _forces(result: "Simulation") -> Table:
-    table = _table(f"Forces and strokes at {speed(result.speed)}", "", "RMS", "peak", "unit")
+    table = titled(f"Forces and strokes at {speed(result.speed)}", "", "RMS", "peak", "unit")
     for name in (x for x in result.rms if any(what in x for what in ("force", "stroke", "damper"))):
         unit = SHOWN[result.histories[0].unit(name)][1]
         table.add_row(meaning(name), *(_shown(result, name, values) for values in _both(result)), unit)
@@ -101,9 +101,9 @@ def damper_tables(result: "DamperComponent") -> RenderableType:
         ("above this the joints give way more", f"{result.corner_frequency:.3f} Hz"),
         ("decay rate with these joints", f"{result.decay_rate:.4f} 1/s"),
         ("decay rate with rigid joints", f"{result.decay_rate_rigid:.4f} 1/s (the joints: {lost:+.4f})"),
-        ("checked", _checked(result.checked)),
+        ("checked", verified(result.checked)),
     ]
-    return Group(_facts("The yaw damper to order", rows), _stiffnesses(result))
+    return Group(facts("The yaw damper to order", rows), _stiffnesses(result))
 
 
 def _two(rms: float, peak: float, factor: float, unit: str) -> str:
@@ -112,12 +112,12 @@ def _two(rms: float, peak: float, factor: float, unit: str) -> str:
 
 def _stiffnesses(result: "DamperComponent") -> Table:
     title = "Dynamic stiffness of the pair, joints included: Z = K_ds C_s s / (K_ds + C_s s)"
-    table = _table(title, "f [Hz]", "|Z| [MN/m]", "phase [°]", "loss factor", "kN·s/m left", "% of C_s")
+    table = titled(title, "f [Hz]", "|Z| [MN/m]", "phase [°]", "loss factor", "kN·s/m left", "% of C_s")
     at = [(f"{z.frequency:g}", z) for z in result.over_frequency]
     if result.at_hunting is not None:
         at.append((f"{result.at_hunting.frequency:.3f}, hunting", result.at_hunting))
     for name, z in sorted(at, key=lambda entry: entry[1].frequency):
-        cells = f"{z.stiffness / 1e6:.3f}", f"{DEGREES * z.phase:.1f}", f"{z.loss_factor:.3f}"
+        cells = f"{z.stiffness / 1e6:.3f}", f"{degrees(z.phase):.1f}", f"{z.loss_factor:.3f}"
         style = "bold" if "hunting" in name else ""
         table.add_row(name, *cells, f"{z.damping / 1e3:.1f}", f"{100 * z.damping / result.C_s:.1f}", style=style)
     return table

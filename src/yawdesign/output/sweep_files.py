@@ -1,12 +1,14 @@
 """Files that a sweep leaves behind, and what becomes of it when one cannot be written."""
 
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import mkdtemp
 
-from yawdesign.output.plots import PICTURES, check_pictures, write_picture
+from yawdesign.output.pictures import PICTURES, check_pictures, write_picture
 from yawdesign.output.plots import plot as draw
+from yawdesign.output.streams import ANSWER
 from yawdesign.output.sweep_plots import check_drawn
 from yawdesign.output.targets import Target, checked_targets
 from yawdesign.problem import ProblemError
@@ -14,8 +16,25 @@ from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.stopping import held, let_through
 from yawdesign.study.axes import Axis
 from yawdesign.study.result import Sweep
+from yawdesign.study.sweep import IncompleteSweepError
 
 MOST_KEPT = 100  # files of one name; then the system's temporary folder is used
+
+
+class RescuedError(Exception):
+    """A sweep that did not come to its end, or was not written or shown; its text says where it is kept.
+
+    Parameters
+    ----------
+    text : str
+        What happened, and how to go on.
+    reason : BaseException
+        What happened: the error, or somebody's request to stop.
+    """
+
+    def __init__(self, text: str, reason: BaseException) -> None:
+        super().__init__(text)
+        self.reason = reason
 
 
 @dataclass(frozen=True)
@@ -88,7 +107,31 @@ class Outputs:
         if errors:
             raise errors[0]
 
-    def rescued(self, sweep: Sweep, reason: str) -> str:
+    @contextmanager
+    def rescuing(self, sweep: Sweep | None = None) -> Iterator[None]:
+        """Keep what is finished of a sweep that does not come to its end, or a whole one if the block fails.
+
+        Parameters
+        ----------
+        sweep : Sweep, optional
+            What the block writes and shows.
+
+        Raises
+        ------
+        RescuedError
+            In place of what happened.
+        """
+        try:
+            yield
+        except IncompleteSweepError as error:
+            reason = error.__cause__ if error.interrupted and error.__cause__ else error
+            raise RescuedError(self._rescued(error.result, error.reason), reason) from None
+        except (KeyboardInterrupt, Exception) as error:  # whatever it is, it may not cost the sweep
+            if sweep is None:
+                raise
+            raise RescuedError(self._rescued(sweep, _unwritten(error)), error) from None
+
+    def _rescued(self, sweep: Sweep, reason: str) -> str:
         """Keep a sweep where there is room for it, and return what to tell; requests to stop wait."""
         if not sweep.finished.any():
             return f"error: {reason}"
@@ -117,3 +160,13 @@ class Outputs:
         """Return what allows the repeated command to replace the files that this one has written."""
         written = any(path is not None and path.is_file() for path in (self.csv, self.npz, self.picture))
         return " --force" if written else ""
+
+
+def _unwritten(error: BaseException) -> str:
+    if isinstance(error, KeyboardInterrupt):
+        return f"it was stopped ({error})"
+    if isinstance(error, OSError):
+        return f"{error.filename or ANSWER} could not be written: {error.strerror}"
+    if isinstance(error, ProblemError):
+        return f"the results could not be written: {str(error).removeprefix('error: ')}"
+    return f"the results could not be shown: {type(error).__name__}: {error}"

@@ -6,8 +6,7 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.branches import curves
-from yawdesign.output.shown_units import shown_unit
-from yawdesign.output.sweep_plots import (
+from yawdesign.output.sweep_style import (
     COLOURS,
     DECADES,
     LABELS,
@@ -22,6 +21,7 @@ from yawdesign.output.sweep_plots import (
     draw_lines,
     legend_below,
     scale_axis,
+    shown_unit,
     title,
 )
 from yawdesign.problem import to_unit

@@ -7,7 +7,8 @@ import numpy as np
 from rich.console import Group, RenderableType
 from rich.table import Table
 
-from yawdesign.output.shown_units import shown_unit
+from yawdesign.output.sweep_style import shown_unit
+from yawdesign.output.tables import facts, verified
 from yawdesign.problem import format_quantity
 from yawdesign.study.axes import ROWS, Axis
 from yawdesign.study.result import Sweep
@@ -24,10 +25,7 @@ GOOD = {
 
 def sweep_tables(sweep: Sweep) -> RenderableType:
     """Return the tables of a `Sweep`."""
-    facts = Table(title=f"Sweep of {sweep.of}", title_justify="left", title_style="bold", show_header=False)
-    for name, value in _facts(sweep):
-        facts.add_row(name, value)
-    return Group(facts, *([_curve(sweep)] if len(sweep.axes) == 1 else []))
+    return Group(facts(f"Sweep of {sweep.of}", _facts(sweep)), *([_curve(sweep)] if len(sweep.axes) == 1 else []))
 
 
 def _facts(sweep: Sweep) -> Iterator[tuple[str, str]]:
@@ -44,7 +42,7 @@ def _facts(sweep: Sweep) -> Iterator[tuple[str, str]]:
         yield from ((f"status: {text}", _share(n, points)) for text, n in _counted(sweep.columns["status"]))
     yield "computed again the thorough way", _share(sweep.recomputed.sum(), points)
     wrong = int(sweep.unverified.sum())
-    yield "checked", f"NO at {wrong} points: two ways differ there" if wrong else "yes, by two independent ways"
+    yield "checked", f"NO at {wrong} points: two ways differ there" if wrong else verified(True)
     yield "time", f"{sweep.provenance['seconds']:.3g} s"
 
 

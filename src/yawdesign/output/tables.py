@@ -2,6 +2,7 @@
 
 import io
 from collections.abc import Iterable
+from math import pi
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console, Group, RenderableType
@@ -20,7 +21,8 @@ DAMPING = "kN·s/m"
 SHOWN = 10  # sensitivities
 
 
-def _table(title: str, *columns: str) -> Table:
+def titled(title: str, *columns: str) -> Table:
+    """Return an empty table; its first column is one of names, the others of numbers."""
     table = Table(title=title, title_justify="left", title_style="bold")
     for k, column in enumerate(columns):
         table.add_column(column, justify="left" if k == 0 else "right")
@@ -44,7 +46,8 @@ def speed(value: float) -> str:
     return format_quantity(value, "km/h")
 
 
-def _facts(title: str, rows: Iterable[tuple[str, str]]) -> Table:
+def facts(title: str, rows: Iterable[tuple[str, str]]) -> Table:
+    """Return a table of names and values."""
     table = Table(title=title, title_justify="left", title_style="bold", show_header=False)
     for name, value in rows:
         table.add_row(name, value)
@@ -52,14 +55,15 @@ def _facts(title: str, rows: Iterable[tuple[str, str]]) -> Table:
 
 
 def _modes(modes: Iterable["Mode"]) -> Table:
-    table = _table("Modes, least damped first", "frequency [Hz]", "damping ratio [%]", "decay rate [1/s]")
+    table = titled("Modes, least damped first", "frequency [Hz]", "damping ratio [%]", "decay rate [1/s]")
     for mode in modes:
         frequency = f"{mode.frequency:.3f}" if mode.frequency else "no oscillation"
         table.add_row(frequency, f"{100 * mode.damping_ratio:.2f}", f"{mode.decay_rate:.4g}")
     return table
 
 
-def _checked(checked: bool) -> str:
+def verified(checked: bool) -> str:
+    """Return whether a result was checked, in words."""
     return "yes, by two independent ways" if checked else "NO: the two ways differ"
 
 
@@ -68,16 +72,16 @@ def stability_tables(result: "Stability") -> RenderableType:
     verdict = Text("stable", "bold green") if result.stable else Text("UNSTABLE", "bold red")
     if not result.checked:
         verdict = Text("NOT VERIFIED: too close to the boundary, or too stiff, for double precision", "bold yellow")
-    facts = _facts(
+    summary = facts(
         f"Stability at {speed(result.speed)} with C_s = {damping(result.C_s)}",
         [
             ("spectral abscissa, all modes", f"{result.spectral_abscissa:.6g} 1/s"),
             ("decay rate, modes the design moves", margin(result.decay_rate, "decay_rate")),
             ("damping ratio, modes the design moves", margin(result.damping_ratio, "damping_ratio")),
-            ("checked", _checked(result.checked)),
+            ("checked", verified(result.checked)),
         ],
     )
-    return Group(Text("The bogie is ").append_text(verdict).append("."), facts, _modes(result.modes))
+    return Group(Text("The bogie is ").append_text(verdict).append("."), summary, _modes(result.modes))
 
 
 def design_tables(result: "ForwardDesign") -> RenderableType:
@@ -101,24 +105,24 @@ def _design_facts(result: "ForwardDesign") -> Table:
     ]
     if result.rotational_resistance is not None:
         rows.append(("rotational resistance T/(4Qa)", f"{result.rotational_resistance:.5f}"))
-    rows += [("answer", f"{result.status}: {result.message}"), ("checked", _checked(result.checked))]
-    return _facts("Forward design of the yaw damper", rows)
+    rows += [("answer", f"{result.status}: {result.message}"), ("checked", verified(result.checked))]
+    return facts("Forward design of the yaw damper", rows)
 
 
 def _critical(result: "ForwardDesign") -> list[Table]:
     if not result.critical:
         return []
-    table = _table("Critical values", "C_s", "frequency [Hz]", "above it the bogie is", "speed")
+    table = titled("Critical values", "C_s", "frequency [Hz]", "above it the bogie is", "speed")
     for x in result.critical:
         becomes = {"neither": "still unstable"}.get(x.becomes, x.becomes)
-        table.add_row(damping(x.C_s), f"{x.omega / 6.283185307179586:.4f}", becomes, speed(x.speed))
+        table.add_row(damping(x.C_s), f"{x.omega / (2 * pi):.4f}", becomes, speed(x.speed))
     return [table]
 
 
 def _sensitivities(result: "ForwardDesign") -> list[Table]:
     if not result.sensitivity:
         return []
-    table = _table("What moves C_sl most: change in % for 1 %", "parameter", "d ln C_sl / d ln p", "meaning")
+    table = titled("What moves C_sl most: change in % for 1 %", "parameter", "d ln C_sl / d ln p", "meaning")
     largest = sorted(result.sensitivity.items(), key=lambda item: -abs(item[1]))[:SHOWN]
     for name, value in largest:
         meaning = PARAMETERS[name].meaning if name in PARAMETERS else "running speed"
@@ -146,11 +150,11 @@ def _optimum_facts(result: "Optimum") -> Table:
     ]
     if result.rotational_resistance is not None:
         rows.insert(4, ("rotational resistance T/(4Qa)", f"{result.rotational_resistance:.5f}"))
-    return _facts("Optimum", rows)
+    return facts("Optimum", rows)
 
 
 def _bounds(result: "Optimum") -> Table:
-    table = _table("Design variables", "variable", "before", "optimum", "min", "max", "place between the bounds")
+    table = titled("Design variables", "variable", "before", "optimum", "min", "max", "place between the bounds")
     for name, bound in result.bounds.items():
         unit = PARAMETERS[name].unit
         before = result.before[name]
@@ -161,18 +165,18 @@ def _bounds(result: "Optimum") -> Table:
 
 
 def _fixed(result: "Optimum") -> Table:
-    table = _table("Modes that no design variable moves", "motion", "decay rate [1/s]", "frequency [Hz]")
+    table = titled("Modes that no design variable moves", "motion", "decay rate [1/s]", "frequency [Hz]")
     for name, roots in result.fixed_modes.items():
         for s in roots:
             if s.imag >= 0:
-                table.add_row(name, f"{-s.real:.4f}", f"{s.imag / 6.283185307179586:.3f}")
+                table.add_row(name, f"{-s.real:.4f}", f"{s.imag / (2 * pi):.3f}")
     return table
 
 
 def export_tables(result: "Export") -> RenderableType:
     """Return the table of an `Export`."""
     rows = [("functions", ", ".join(result.functions)), ("files", ", ".join(result.files))]
-    return _facts(f"Written to {result.folder}", [*rows, ("what they take and give", "manifest.json")])
+    return facts(f"Written to {result.folder}", [*rows, ("what they take and give", "manifest.json")])
 
 
 def rendered(table: RenderableType) -> str:

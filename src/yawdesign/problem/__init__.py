@@ -4,14 +4,13 @@ from .diagnostics import Diagnostic, ProblemError
 from .parameters import PARAMETERS, Bogie
 from .presets import table1
 from .problem import Problem
-from .quantities import format_quantity, parse_quantity, to_unit
+from .quantities import Written, exact, format_quantity, parse_quantity, to_unit
 from .reader import load, loads, read
 from .running import Curve, SpeedRange
 from .schema import SCHEMA_FILE, schema
 from .starter import starter
 from .table import Parameter
 from .variables import Design, Variable
-from .written import Written, exact
 
 __all__ = [
     "PARAMETERS",

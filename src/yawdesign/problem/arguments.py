@@ -19,6 +19,7 @@ from .diagnostics import Diagnostic, ProblemError, unknown_key
 
 F = TypeVar("F", bound=Callable[..., Any])
 T = TypeVar("T")
+Progress = Callable[[str, float], Any]  # what is told of long work: a text, and the share that is done, 0 ... 1
 
 _WORDS: Mapping[Any, str] = {
     str: "a text",

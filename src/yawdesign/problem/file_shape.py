@@ -1,4 +1,4 @@
-"""The shape of a problem file as pydantic models, generated from the parameter table.
+"""The shape of a problem file as pydantic models, generated from the parameter table, and the problem they describe.
 
 Pydantic finds what is missing, unknown or of the wrong shape; the values themselves are checked by the table, in the
 same functions that the dataclasses use. Nothing of pydantic leaves this room.
@@ -23,13 +23,13 @@ from pydantic import (
 from pydantic import create_model as make
 
 from .diagnostics import ProblemError
-from .parameters import KINDS, PARAMETERS, parameter_keys
+from .parameters import KINDS, PARAMETERS, Bogie, parameter_keys
 from .patterns import unit_pattern
-from .problem import EQUATIONS
-from .running import CURVE, LOADS, SPEED, STEPS
-from .table import Parameter, as_choice, as_count, as_text, check_end
+from .problem import EQUATIONS, Problem
+from .running import CURVE, LOADS, SPEED, STEPS, Curve, SpeedRange
+from .table import Parameter, as_choice, as_count, as_text, check_end, field_name
 from .units import kind_of
-from .variables import OBJECTIVES
+from .variables import OBJECTIVES, Design, Variable
 
 PRESETS = ("table1",)
 _STRICT = ConfigDict(extra="forbid")
@@ -78,7 +78,7 @@ def _model(name: str, meaning: str, entries: Mapping[str, tuple[Any, Any]]) -> t
     return make(name, __config__=_STRICT, __doc__=meaning, **entries)  # type: ignore[call-overload, no-any-return]
 
 
-def _bogie(kind: str, *, complete: bool) -> type[BaseModel]:
+def _bogie_model(kind: str, *, complete: bool) -> type[BaseModel]:
     def default(row: Parameter) -> Any:
         return ... if complete and not row.optional else None
 
@@ -90,7 +90,7 @@ def _bogie(kind: str, *, complete: bool) -> type[BaseModel]:
     )
 
 
-def _curve() -> type[BaseModel]:
+def _curve_model() -> type[BaseModel]:
     rows = {key: (quantity(row), None if key == "limit" else ...) for key, row in CURVE.items()}
     load = _choice(LOADS, "Load Q in T/(4 Q a): the axle load W as in the paper, or the wheel load W/2.", "axle")
     return _model("Curve", "The tightest curve; it limits the damping from above.", {**rows, "load": (load, None)})
@@ -125,7 +125,7 @@ def _not_empty(value: object) -> object:
     return value
 
 
-def _design(kind: str) -> type[BaseModel]:
+def _design_model(kind: str) -> type[BaseModel]:
     rows: Iterable[Parameter] = (PARAMETERS[key] for key in parameter_keys(kind))
     variables = _model(
         "Variables",
@@ -164,9 +164,38 @@ def problem_model(kind: str, *, complete: bool = True) -> type[BaseModel]:
         {
             "title": (text, None),
             "equations": (equations, None),
-            "bogie": (_bogie(kind, complete=complete), ...),
+            "bogie": (_bogie_model(kind, complete=complete), ...),
             "speed": (_speed(), ...),
-            "curve": (_curve(), None),
-            "design": (_design(kind), None),
+            "curve": (_curve_model(), None),
+            "design": (_design_model(kind), None),
         },
     )
+
+
+def build(model: BaseModel) -> Problem:
+    """Return the problem that a validated model describes."""
+    data = given(model)
+    speed = data["speed"]
+    return Problem(
+        title=data.get("title", ""),
+        equations=data.get("equations", "reciprocal"),
+        bogie=_bogie(data["bogie"]),
+        speed=SpeedRange(**speed) if isinstance(speed, dict) else speed,
+        curve=Curve(**data["curve"]) if "curve" in data else None,
+        design=_design(data.get("design", {})),
+    )
+
+
+def given(model: BaseModel) -> dict[str, Any]:
+    """Return the values that were given, by key, nested models included."""
+    values = {key: getattr(model, key) for key in type(model).model_fields if key in model.model_fields_set}
+    return {key: given(value) if isinstance(value, BaseModel) else value for key, value in values.items()}
+
+
+def _bogie(data: dict[str, Any]) -> Bogie:
+    return Bogie(**{field_name(key): value for key, value in data.items() if key != "base"})
+
+
+def _design(data: dict[str, Any]) -> Design:
+    variables = {key: Variable(**bounds) for key, bounds in data.get("variables", {}).items()}
+    return Design(objective=data.get("objective", "decay_rate"), variables=variables)

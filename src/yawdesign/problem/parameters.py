@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal, get_args
 
 from .arguments import named
@@ -12,14 +13,16 @@ from .table import as_choice, check_fields, documented, field_name, parameter, t
 Kind = Literal["power", "trailer"]
 KINDS: tuple[str, ...] = get_args(Kind)
 
-# Hard ranges leave room for limit studies (rigid joints, a bogie frame that stands still).
-_MASS = (1e-3, 1e18)
-_STIFFNESS = (0.0, 1e18)
-_JOINT = (1.0, 1e18)  # a joint without stiffness would be a damper that is not there
-_DAMPING = (0.0, 1e12)
-_LENGTH = (1e-3, 100.0)
-_OFFSET = (0.0, 100.0)
-_CREEP = (1.0, 1e15)
+# Rows that stand together in a file, and what is accepted of them: room for limit studies (rigid joints, a frame that
+# stands still).
+_mass = partial(parameter, group="masses and yaw inertias, axle load", hard=(1e-3, 1e18))
+_spring = partial(parameter, group="suspension", hard=(0.0, 1e18))
+# A joint without stiffness would be a damper that is not there.
+_joint = partial(parameter, group="joints of the dampers, a damper having one at each end", hard=(1.0, 1e18))
+_damper = partial(parameter, group="dampers", hard=(0.0, 1e12))
+_distance = partial(parameter, group="distances", hard=(1e-3, 100.0))
+_contact = partial(parameter, group="wheel and rail", hard=(1.0, 1e15))
+_OFFSET = (0.0, 100.0)  # of a distance that may be none
 
 
 @named
@@ -38,143 +41,104 @@ class Bogie:
     """
 
     kind: Kind = "power"
-    M_b: float = parameter(
-        r"M_\mathrm{b}", "kg", "mass of the bogie frame", hard=_MASS, usual=(1e3, 20e3), source="7 186"
+    M_b: float = _mass(r"M_\mathrm{b}", "kg", "mass of the bogie frame", usual=(1e3, 20e3), source="7 186")
+    J_b: float = _mass(r"J_\mathrm{b}", "kg·m²", "yaw inertia of the bogie frame", usual=(500, 50e3), source="9 751")
+    M_w: float = _mass(r"M_\mathrm{w}", "kg", "mass of each wheelset", usual=(500, 6e3), source="3 085")
+    J_w: float = _mass(r"J_\mathrm{w}", "kg·m²", "yaw inertia of each wheelset", usual=(200, 5e3), source="2 024")
+    M_m: float | None = _mass(r"M_\mathrm{m}", "kg", "mass of each motor", usual=(100, 6e3), source="1 765", motor=True)
+    J_m: float | None = _mass(
+        r"J_\mathrm{m}", "kg·m²", "yaw inertia of each motor", usual=(5, 5e3), source="1 019", motor=True
     )
-    J_b: float = parameter(
-        r"J_\mathrm{b}", "kg·m²", "yaw inertia of the bogie frame", hard=_MASS, usual=(500, 50e3), source="9 751"
-    )
-    M_w: float = parameter(r"M_\mathrm{w}", "kg", "mass of each wheelset", hard=_MASS, usual=(500, 6e3), source="3 085")
-    J_w: float = parameter(
-        r"J_\mathrm{w}", "kg·m²", "yaw inertia of each wheelset", hard=_MASS, usual=(200, 5e3), source="2 024"
-    )
-    M_m: float | None = parameter(
-        r"M_\mathrm{m}", "kg", "mass of each motor", hard=_MASS, usual=(100, 6e3), source="1 765", motor=True
-    )
-    J_m: float | None = parameter(
-        r"J_\mathrm{m}", "kg·m²", "yaw inertia of each motor", hard=_MASS, usual=(5, 5e3), source="1 019", motor=True
-    )
-    W: float = parameter("W", "N", "axle load", hard=(0.0, 1e9), usual=(20e3, 500e3), source="200 000")
-    K_1x: float = parameter(
+    W: float = _mass("W", "N", "axle load", hard=(0.0, 1e9), usual=(20e3, 500e3), source="200 000")
+    K_1x: float = _spring(
         r"K_{1x}",
         "MN/m",
         "longitudinal stiffness of the primary suspension of each wheelset",
-        hard=_STIFFNESS,
         usual=(1e6, 500e6),
         source="40",
     )
-    K_1y: float = parameter(
+    K_1y: float = _spring(
         r"K_{1y}",
         "MN/m",
         "lateral stiffness of the primary suspension of each wheelset",
-        hard=_STIFFNESS,
         usual=(0.2e6, 200e6),
         source="6",
     )
-    K_2x: float = parameter(
+    K_2x: float = _spring(
         r"K_{2x}",
         "MN/m",
         "longitudinal stiffness of the secondary suspension of the bogie",
-        hard=_STIFFNESS,
         usual=(10e3, 20e6),
         source="0.8",
     )
-    K_2y: float = parameter(
+    K_2y: float = _spring(
         r"K_{2y}",
         "MN/m",
         "lateral stiffness of the secondary suspension of the bogie",
-        hard=_STIFFNESS,
         usual=(10e3, 20e6),
         source="0.8",
     )
-    K_m: float | None = parameter(
+    K_m: float | None = _spring(
         r"K_\mathrm{m}",
         "kN/m",
         "lateral stiffness of the suspension of each motor",
-        hard=_STIFFNESS,
         usual=(10e3, 100e6),
         source="626.48",
         motor=True,
     )
-    K_mphi: float | None = parameter(
+    K_mphi: float | None = _spring(
         r"K_{\mathrm{m}\varphi}",
         "kN·m/rad",
         "yaw stiffness of the suspension of each motor",
-        hard=_STIFFNESS,
         usual=(1e3, 1e9),
         source="361.69",
         motor=True,
     )
-    K_ds: float = parameter(
-        r"K_\mathrm{ds}",
-        "MN/m",
-        "stiffness of each joint of a yaw damper",
-        hard=_JOINT,
-        usual=(0.5e6, 500e6),
-        source="40",
+    K_ds: float = _joint(
+        r"K_\mathrm{ds}", "MN/m", "stiffness of each joint of a yaw damper", usual=(0.5e6, 500e6), source="40"
     )
-    K_dt: float = parameter(
+    K_dt: float = _joint(
         r"K_\mathrm{dt}",
         "MN/m",
         "stiffness of each joint of a secondary lateral damper",
-        hard=_JOINT,
         usual=(0.5e6, 500e6),
         source="40",
     )
-    K_dm: float | None = parameter(
+    K_dm: float | None = _joint(
         r"K_\mathrm{dm}",
         "MN/m",
         "stiffness of each joint of a motor lateral damper",
-        hard=_JOINT,
         usual=(0.5e6, 500e6),
         source="40",
         motor=True,
     )
-    C_t: float = parameter(
-        r"C_\mathrm{t}",
-        "kN·s/m",
-        "damping of the pair of secondary lateral dampers",
-        hard=_DAMPING,
-        usual=(1e3, 1e6),
-        source="60",
+    C_t: float = _damper(
+        r"C_\mathrm{t}", "kN·s/m", "damping of the pair of secondary lateral dampers", usual=(1e3, 1e6), source="60"
     )
-    C_s: float | None = parameter(
+    C_s: float | None = _damper(
         r"C_\mathrm{s}",
         "kN·s/m",
         "damping of the pair of yaw dampers",
-        hard=_DAMPING,
         usual=(10e3, 20e6),
         source="1 000",
         optional=True,
     )
-    C_mphi: float | None = parameter(
+    C_mphi: float | None = _damper(
         r"C_{\mathrm{m}\varphi}",
         "kN·s·m/rad",
         "yaw damping of the suspension of each motor",
-        hard=_DAMPING,
         usual=(10, 1e6),
         source="11.52",
         motor=True,
     )
-    C_m: float | None = parameter(
-        r"C_\mathrm{m}",
-        "kN·s/m",
-        "damping of one motor lateral damper",
-        hard=_DAMPING,
-        usual=(100, 1e6),
-        source="19.95",
-        motor=True,
+    C_m: float | None = _damper(
+        r"C_\mathrm{m}", "kN·s/m", "damping of one motor lateral damper", usual=(100, 1e6), source="19.95", motor=True
     )
-    a: float = parameter("a", "m", "half the wheelbase", hard=_LENGTH, usual=(0.6, 2.5), source="1.25")
-    b: float = parameter(
-        "b",
-        "m",
-        "half the lateral distance of the contact points of a wheelset",
-        hard=_LENGTH,
-        usual=(0.4, 1.0),
-        source="0.746 5",
+    a: float = _distance("a", "m", "half the wheelbase", usual=(0.6, 2.5), source="1.25")
+    b: float = _distance(
+        "b", "m", "half the lateral distance of the contact points of a wheelset", usual=(0.4, 1.0), source="0.746 5"
     )
-    a_0: float | None = parameter(
+    a_0: float | None = _distance(
         "a_0",
         "m",
         "longitudinal distance of each motor from the centre of the frame",
@@ -183,7 +147,7 @@ class Bogie:
         source="0.75",
         motor=True,
     )
-    b_0: float = parameter(
+    b_0: float = _distance(
         "b_0",
         "m",
         "half the longitudinal distance of the secondary lateral dampers",
@@ -191,29 +155,22 @@ class Bogie:
         usual=(0.0, 2.0),
         source="0.3",
     )
-    b_1: float = parameter(
+    b_1: float = _distance(
         "b_1", "m", "half the lateral distance of the primary springs", hard=_OFFSET, usual=(0.4, 1.6), source="1.1"
     )
-    b_2: float = parameter(
+    b_2: float = _distance(
         "b_2", "m", "half the lateral distance of the secondary springs", hard=_OFFSET, usual=(0.4, 1.6), source="1.1"
     )
-    b_3: float = parameter(
-        "b_3", "m", "half the lateral distance of the yaw dampers", hard=_LENGTH, usual=(0.5, 1.7), source="1.2"
-    )
-    r: float = parameter("r", "m", "rolling radius of the wheels", hard=_LENGTH, usual=(0.25, 0.7), source="0.625")
-    lambda_: float = parameter(
+    b_3: float = _distance("b_3", "m", "half the lateral distance of the yaw dampers", usual=(0.5, 1.7), source="1.2")
+    r: float = _contact("r", "m", "rolling radius of the wheels", hard=(1e-3, 100.0), usual=(0.25, 0.7), source="0.625")
+    lambda_: float = _contact(
         r"\lambda", "-", "equivalent conicity of the wheelsets", hard=(0.0, 10.0), usual=(0.005, 0.6), source="0.15"
     )
-    f_11: float = parameter(
-        r"f_{11}", "kN", "lateral creep coefficient of each wheel", hard=_CREEP, usual=(0.5e6, 50e6), source="11 511"
+    f_11: float = _contact(
+        r"f_{11}", "kN", "lateral creep coefficient of each wheel", usual=(0.5e6, 50e6), source="11 511"
     )
-    f_22: float = parameter(
-        r"f_{22}",
-        "kN",
-        "longitudinal creep coefficient of each wheel",
-        hard=_CREEP,
-        usual=(0.5e6, 50e6),
-        source="11 511",
+    f_22: float = _contact(
+        r"f_{22}", "kN", "longitudinal creep coefficient of each wheel", usual=(0.5e6, 50e6), source="11 511"
     )
 
     def __post_init__(self) -> None:

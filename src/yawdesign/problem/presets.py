@@ -6,10 +6,9 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from .build import build
 from .diagnostics import Mistakes
 from .document import compose, plain_data
-from .file_shape import problem_model
+from .file_shape import build, problem_model
 from .parameters import KINDS, parameter_keys
 from .problem import EQUATIONS, Problem
 from .table import as_choice
@@ -27,9 +26,9 @@ def _preset(name: str) -> Any:
 
 
 def preset_bogie(name: str, kind: str) -> dict[str, Any]:
-    """Return a preset's bogie by key; a trailer bogie gets no motor values."""
+    """Return a preset's bogie by key, without what it does not have; a trailer bogie gets no motor values."""
     bogie = _preset(name)["bogie"]
-    return {"kind": kind} | {key: bogie[key] for key in parameter_keys(kind)}
+    return {"kind": kind} | {key: bogie[key] for key in parameter_keys(kind) if key in bogie}
 
 
 def table1(kind: str = "power", equations: str = "reciprocal") -> Problem:

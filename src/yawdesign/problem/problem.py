@@ -11,7 +11,7 @@ from .arguments import named
 from .diagnostics import Mistakes, ProblemError, unknown_key
 from .parameters import MOTOR_KEYS, NO_MOTOR, Bogie, parameter_keys
 from .running import SPEED, Curve, SpeedRange
-from .table import as_choice, as_text, field_name
+from .table import as_choice, as_text, field_name, key_of
 from .variables import Design, default_variables
 
 Equations = Literal["reciprocal", "as-printed"]
@@ -77,11 +77,6 @@ class Problem:
         """The running speeds [m/s] in rising order; one, if no range is given."""
         return self.speed.values if isinstance(self.speed, SpeedRange) else (self.speed,)
 
-    @property
-    def model(self) -> dict[str, str]:
-        """The keywords that choose the equations: ``kind`` of the bogie and ``equations``."""
-        return {"kind": self.bogie.kind, "equations": self.equations}
-
     def replace(self, **changes: Any) -> Self:
         """Return a problem with other values.
 
@@ -101,7 +96,7 @@ class Problem:
             If a name is not known or a value is not accepted.
         """
         own = {f.name for f in fields(self)}
-        keys = {name: "lambda" if name == "lambda_" else name for name in changes}
+        keys = {name: key_of(name) for name in changes}
         allowed = (*own, *parameter_keys(self.bogie.kind))
         mistakes = Mistakes()
         for key in keys.values():

@@ -10,12 +10,16 @@ from typing import Any
 class Result:
     """A result: its attributes are the keys of `to_dict`."""
 
+    def _entries(self) -> Mapping[str, Any]:
+        """Return its values by the keys of `to_dict`."""
+        return {f.name: getattr(self, f.name) for f in fields(self)}
+
     def to_dict(self) -> dict[str, Any]:
         """Return plain data in SI that JSON can hold; what does not exist is None, a complex number is [re, im]."""
-        return {f.name: plain(getattr(self, f.name)) for f in fields(self)}
+        return {name: plain(value) for name, value in self._entries().items()}
 
     def __repr__(self) -> str:
-        rows = [(f.name, _cell(getattr(self, f.name))) for f in fields(self)]
+        rows = [(name, _cell(value)) for name, value in self._entries().items()]
         width = max(len(name) for name, _ in rows)
         return "\n".join([type(self).__name__, *(f"  {name:<{width}}  {cell}" for name, cell in rows)])
 

@@ -7,8 +7,8 @@ from typing import Literal, get_args
 
 from .arguments import named
 from .diagnostics import Mistakes
+from .quantities import Written, exact
 from .table import Parameter, as_choice, as_count, check_ends, check_fields, documented, parameter, table
-from .written import Written, exact
 
 Load = Literal["axle", "wheel"]
 LOADS: tuple[str, ...] = get_args(Load)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
+from itertools import groupby
 
 from .diagnostics import Mistakes
 from .parameters import KINDS, PARAMETERS, parameter_keys
@@ -47,15 +48,6 @@ design:
 {variables}
 """
 
-_GROUPS = (
-    ("masses and yaw inertias, axle load", ("M_b", "J_b", "M_w", "J_w", "M_m", "J_m", "W")),
-    ("suspension", ("K_1x", "K_1y", "K_2x", "K_2y", "K_m", "K_mphi")),
-    ("joints of the dampers, a damper having one at each end", ("K_ds", "K_dt", "K_dm")),
-    ("dampers", ("C_t", "C_s", "C_mphi", "C_m")),
-    ("distances", ("a", "b", "a_0", "b_0", "b_1", "b_2", "b_3")),
-    ("wheel and rail", ("r", "lambda", "f_11", "f_22")),
-)
-
 
 def starter(kind: str = "power") -> str:
     """Return a commented problem file to start from.
@@ -86,12 +78,11 @@ def starter(kind: str = "power") -> str:
 
 def bogie_lines(kind: str) -> str:
     """Return the values of Table I as commented lines, in groups."""
-    keys = parameter_keys(kind)
-    return "\n".join(_group(title, [key for key in group if key in keys]) for title, group in _GROUPS)
+    rows = (PARAMETERS[key] for key in parameter_keys(kind))
+    return "\n".join(_group(title, of_group) for title, of_group in groupby(rows, key=lambda row: row.group))
 
 
-def _group(title: str, keys: Sequence[str]) -> str:
-    rows: Iterable[Parameter] = (PARAMETERS[key] for key in keys)
+def _group(title: str, rows: Iterable[Parameter]) -> str:
     return "\n".join([f"\n  # {title}", *(_line(row, row.example) for row in rows)])
 
 

@@ -10,9 +10,8 @@ from typing import Any, TypeVar, cast
 
 from .characters import refusal
 from .diagnostics import Mistakes, ProblemError, suggestion, warn_of_unit
-from .quantities import format_number, format_quantity, parse_quantity, split_quantity
+from .quantities import Written, exact, format_number, format_quantity, parse_quantity, split_quantity
 from .units import UnitError, kind_of, parse_unit, si_unit
-from .written import Written, exact
 
 T = TypeVar("T")
 LONGEST_TEXT = 1000
@@ -40,6 +39,8 @@ class Parameter:
         Least and largest value that is not doubted, in SI.
     source : str
         Value in Table I or the design example of the paper, as printed and in the displayed unit.
+    group : str
+        Title of the rows that stand together in a file.
     motor : bool
         Whether only a power bogie has it.
     optional : bool
@@ -53,6 +54,7 @@ class Parameter:
     hard: Range
     usual: Range
     source: str
+    group: str = ""
     motor: bool = False
     optional: bool = False
 
@@ -132,7 +134,7 @@ def parameter(
 
 def table(cls: type) -> Mapping[str, Parameter]:
     """Return the rows of a dataclass made with :func:`parameter`, by key and in order."""
-    rows = {f.name.rstrip("_"): f.metadata["parameter"] for f in fields(cls) if "parameter" in f.metadata}
+    rows = {key_of(f.name): f.metadata["parameter"] for f in fields(cls) if "parameter" in f.metadata}
     return MappingProxyType({key: replace(row, key=key) for key, row in rows.items()})
 
 
@@ -161,7 +163,16 @@ def check_ends(low: object, high: object, row: Parameter) -> tuple[Written, Writ
 
 def field_name(key: str) -> str:
     """Return the Python name of a key: ``lambda`` is a reserved word and becomes ``lambda_``."""
-    return "lambda_" if key == "lambda" else key
+    return _RESERVED.get(key, key)
+
+
+def key_of(name: str) -> str:
+    """Return the key that a Python name stands for: ``lambda`` for ``lambda_``."""
+    return _KEYS.get(name, name)
+
+
+_RESERVED = {"lambda": "lambda_"}
+_KEYS = {name: key for key, name in _RESERVED.items()}
 
 
 def as_quantity(value: object, unit: str, si: str = "") -> Written:

@@ -10,7 +10,7 @@ from typing import Any, Literal, Self, get_args
 from .arguments import named, refused
 from .diagnostics import Mistakes, ProblemError, unknown_key
 from .parameters import PARAMETERS, parameter_keys
-from .table import Parameter, as_choice, check_ends
+from .table import Parameter, as_choice, check_ends, key_of
 
 Objective = Literal["decay_rate", "damping_ratio"]
 OBJECTIVES: tuple[str, ...] = get_args(Objective)
@@ -96,7 +96,7 @@ class Design:
             as_choice(self.objective, OBJECTIVES)
         checked: dict[str, Variable] = {}
         for given, variable in self._given():
-            key = "lambda" if given == "lambda_" else given
+            key = key_of(given)
             with mistakes.under(f"design.variables.{key}"):
                 checked[key] = _checked_variable(key, variable)
         mistakes.report()

@@ -147,7 +147,7 @@ def _design(question: Question, sets: ParameterSets) -> Answers:
     unverified |= ~sure
     curve, upper = question.curve, np.full(sets.size, np.inf)
     if curve is not None:
-        upper = np.full(sets.size, curving_limit(sets.values, curve))
+        upper = np.min([np.full(case.size, curving_limit(case.values, curve)) for case in cases], axis=0)
     decision = decide([(x.critical, x.unstable_roots) for x in fields], upper, others_stable)
     status = np.where(unverified, Status.UNVERIFIED, decision.status)
     C_sl = np.where(unverified, np.nan, decision.C_sl)
@@ -157,8 +157,8 @@ def _design(question: Question, sets: ParameterSets) -> Answers:
     columns = {"C_s": C_s, "C_sl": C_sl, "C_su": np.where(np.isinf(upper), np.nan, upper), "status": status}
     if curve is not None:
         with np.errstate(all="ignore"):
-            p = {**sets.values, "C_s": C_s}
-            columns["rotational_resistance"] = np.full(sets.size, rotational_resistance(p, C_s, curve))
+            each = [np.full(case.size, rotational_resistance(case.values, C_s, curve)) for case in cases]
+        columns["rotational_resistance"] = np.max(each, axis=0)
     return _confirmed(question, sets, Answers(columns, recomputed, unverified))
 
 

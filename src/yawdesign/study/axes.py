@@ -63,7 +63,7 @@ class Axis:
     unit : str
         Unit of the values, SI.
     values : ndarray
-        In rising order.
+        In rising order [`unit`].
     """
 
     name: str

@@ -13,7 +13,7 @@ from yawdesign.problem.conditions import CREEP, Condition, conditions, distinct
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.parameters import MOTOR_KEYS, NO_MOTOR, parameter_keys
 from yawdesign.problem.running import SpeedRange
-from yawdesign.problem.table import as_choice
+from yawdesign.problem.table import as_choice, key_of
 from yawdesign.study.axes import DERIVED, ROWS, Axis, applied, read_axis, shape
 from yawdesign.vehicle.vehicle import Model
 
@@ -145,7 +145,7 @@ class Request:
 def request(problem: Problem, of: str, axes: Iterable[tuple[str, Any]], hold: str | None) -> Request:
     """Return a checked request; arguments as in `yawdesign.sweep`, the axes as pairs of name and values."""
     mistakes = Mistakes()
-    pairs = [("lambda" if name == "lambda_" else name, values) for name, values in axes]
+    pairs = [(key_of(name), values) for name, values in axes]
     names = [name for name, _ in pairs]
     quantity = ""
     with mistakes.under("of"):

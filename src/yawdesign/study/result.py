@@ -1,87 +1,48 @@
 """What a sweep returns: values with their axes, units and origin."""
 
 import platform
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib import import_module
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from yawdesign import __version__
 from yawdesign.hunting.arrays import Array, Bools
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import unknown_key
-from yawdesign.problem.result import Result, plain
-from yawdesign.study.axes import Axis, shape
+from yawdesign.problem.result import plain
+from yawdesign.problem.table import field_name
+from yawdesign.study.axes import shape
 from yawdesign.study.kept_file import KeptFile
+from yawdesign.study.labelled_data import MAIN, LabelledData
 from yawdesign.study.request import QUANTITIES, UNITS, Request
 from yawdesign.study.store import MASKS, Store
 
-if TYPE_CHECKING:
-    import xarray
-
-
-MAIN = {"design": "C_s"}  # the column that `values` shows, where it is not named after the quantity
-
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Sweep(Result):
-    """Answers on a grid.
+class Sweep(LabelledData):
+    """Answers on a grid: data with labels, and the request that they answer.
 
     Parameters
     ----------
-    of, quantity : str
-        What was asked for, and the same with ``margin`` resolved.
-    unit : str
-        Unit of the values.
-    axes : tuple of Axis
-        Name, unit and values of each axis, in the order given.
-    columns : mapping name -> ndarray
-        All that was found. The first dimensions are the axes; a further one counts several values at a point, in
-        rising order and filled up with NaN.
-    finished, recomputed, unverified : ndarray of bool
-        Points that have an answer; that failed a check of the fast way and were computed the thorough way; where two
-        independent ways differ, so that there is no number (NaN, or not stable).
-    provenance : mapping
-        Problem, versions, number of points and time.
     boundary : Sweep or None
         All critical values over the other axis of a map over C_s, and over the axis of ``C_sl`` and ``design``.
     request : Request
         What was asked for, with the problem.
     """
 
-    of: str
-    quantity: str
-    unit: str
-    axes: tuple[Axis, ...]
-    columns: Mapping[str, NDArray[Any]]
-    finished: Bools
-    recomputed: Bools
-    unverified: Bools
-    provenance: Mapping[str, Any]
     boundary: "Sweep | None"
     request: Request
 
     @property
-    def main(self) -> NDArray[Any]:
-        """The column that `values` shows."""
-        return self.columns[MAIN.get(self.quantity, self.quantity)]
-
-    @property
     def values(self) -> Array:
-        """The answers, one dimension for each axis; of several values at a point a tuple."""
+        """The answers [`unit`], one dimension for each axis; of several values at a point a tuple."""
         several = self.main.ndim > len(self.axes)
         return _tuples(self.main) if several else self.main
-
-    @property
-    def known(self) -> Bools:
-        """Points that have an answer which was verified."""
-        return self.finished & ~self.unverified
 
     @property
     def good(self) -> Bools:
@@ -123,63 +84,18 @@ class Sweep(Result):
             Name of an axis and a value in SI.
         """
         ((name, value),) = place.items()
-        names = ["lambda_" if axis.name == "lambda" else axis.name for axis in self.axes]
+        names = [field_name(axis.name) for axis in self.axes]
         if name not in names:
             raise ProblemError(f"{name} {unknown_key(name, names)}; the axes are {', '.join(names)}")
         k = names.index(name)
         nearest = int(np.argmin(np.abs(self.axes[k].values - value)))
-        masks = {n: np.take(getattr(self, n), nearest, axis=k) for n in ("finished", "recomputed", "unverified")}
+        masks = {n: np.take(x, nearest, axis=k) for n, x in self._masks().items()}
         columns = {n: np.take(x, nearest, axis=k) for n, x in self.columns.items()}
         axes = (*self.axes[:k], *self.axes[k + 1 :])
         at = {**self.provenance.get("at", {}), self.axes[k].name: float(self.axes[k].values[nearest])}
         return replace(
             self, axes=axes, columns=columns, **masks, boundary=None, provenance={**self.provenance, "at": at}
         )
-
-    def to_xarray(self) -> "xarray.Dataset":
-        """Return an `xarray.Dataset` with coordinates, units and provenance; it can be written as netCDF."""
-        from yawdesign.study.labelled_data import dataset
-
-        return dataset(self)
-
-    def to_csv(self, path: str | PathLike[str], *, replace: bool = False) -> None:
-        """Write a table with one line for each point; lines with # before it tell where it comes from.
-
-        Parameters
-        ----------
-        path : path
-            Name of the file; it is there as a whole or not at all.
-        replace : bool
-            Whether a file that is there is replaced.
-
-        Raises
-        ------
-        ProblemError
-            If there is a file that may not be replaced.
-        OSError
-            If it cannot be written.
-        """
-        from yawdesign.study.labelled_data import write_csv
-
-        write_csv(self, Path(path), replace=replace)
-
-    def to_npz(self, path: str | PathLike[str], *, replace: bool = False) -> None:
-        """Write arrays that `numpy.load` reads: ``values`` and all columns, ``axis_NAME``, masks, units, provenance.
-
-        Parameters, errors: as in `to_csv`.
-        """
-        from yawdesign.study.labelled_data import write_npz
-
-        write_npz(self, Path(path), replace=replace)
-
-    def to_netcdf(self, path: str | PathLike[str], *, replace: bool = False) -> None:
-        """Write what `to_xarray` returns as a netCDF file.
-
-        Parameters, errors: as in `to_csv`.
-        """
-        from yawdesign.study.labelled_data import write_netcdf
-
-        write_netcdf(self, Path(path), replace=replace)
 
     def keep(self, path: str | PathLike[str]) -> None:
         """Write what is finished, of an interrupted sweep say, for ``resume=path``.
@@ -255,7 +171,7 @@ def _provenance(asked: Request, store: Store, seconds: float) -> dict[str, Any]:
         "hold": asked.task.hold,
         "versions": versions | {name: import_module(name).__version__ for name in ("numpy", "casadi")},
         "points": store.size,
-        **{name: int(getattr(store, name).sum()) for name in ("finished", "recomputed", "unverified")},
+        **{name: int(getattr(store, name).sum()) for name in MASKS},
         "seconds": round(seconds, 3),
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
     }

@@ -2,13 +2,14 @@
 
 import time
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from contextlib import suppress
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from yawdesign.problem import Problem, ProblemError
+from yawdesign.problem.arguments import Progress
 from yawdesign.problem.running import SpeedRange
 from yawdesign.problem.stopping import held, request_to_stop
 from yawdesign.study.axes import Axis
@@ -18,7 +19,6 @@ from yawdesign.study.request import Request, request
 from yawdesign.study.result import Sweep, gathered
 from yawdesign.study.store import Store
 
-Progress = Callable[[str, float], None]
 Pairs = Iterable[tuple[str, Any]]
 
 SAVE_EVERY = 30.0  # [s] with a file to resume from

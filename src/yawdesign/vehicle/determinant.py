@@ -1,16 +1,17 @@
 """Determinants of sparse polynomial matrices, and the independent parts that their graphs fall into."""
 
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 from yawdesign.vehicle.polynomials import ONE, ZERO, Polynomial, add, multiply, product, scale
 
 Node = Hashable
+N = TypeVar("N", bound=Hashable)
 Matrix = Mapping[tuple[Any, Any], Polynomial]
 
 
-def _neighbours(edges: Iterable[tuple[Node, Node]]) -> dict[Node, list[Node]]:
-    rows: dict[Node, list[Node]] = {}
+def _neighbours(edges: Iterable[tuple[N, N]]) -> dict[N, list[N]]:
+    rows: dict[N, list[N]] = {}
     for i, j in edges:
         rows.setdefault(i, [])
         rows.setdefault(j, [])
@@ -19,13 +20,53 @@ def _neighbours(edges: Iterable[tuple[Node, Node]]) -> dict[Node, list[Node]]:
     return rows
 
 
-def _reachable(start: Node, rows: Mapping[Node, Sequence[Node]], nodes: frozenset[Node]) -> frozenset[Node]:
+def _reachable(start: N, rows: Mapping[N, Sequence[N]], nodes: frozenset[N]) -> frozenset[N]:
     found, queue = {start}, [start]
     while queue:
         new = [j for j in rows[queue.pop()] if j in nodes and j not in found]
         found.update(new)
         queue.extend(new)
     return frozenset(found)
+
+
+def _pieces(nodes: Iterable[N], *ways: Mapping[N, Sequence[N]]) -> list[frozenset[N]]:
+    """Return the parts of some nodes of a graph within which each node reaches each other on all of the ways."""
+    pieces, rest = [], list(nodes)
+    inside = frozenset(rest)
+    while rest:
+        piece = frozenset.intersection(*(_reachable(rest[0], rows, inside) for rows in ways))
+        pieces.append(piece)
+        rest = [i for i in rest if i not in piece]
+    return sorted(pieces, key=len)
+
+
+def reached_from(start: N, edges: Iterable[tuple[N, N]]) -> frozenset[N]:
+    """Return a node of a graph and all that its edges lead to from there.
+
+    Examples
+    --------
+    >>> sorted(reached_from(2, [(1, 2), (2, 1), (3, 2), (2, 4)]))
+    [1, 2, 4]
+    """
+    rows = _neighbours(edges)
+    return _reachable(start, rows, frozenset(rows))
+
+
+def independent_parts(edges: Sequence[tuple[N, N]]) -> list[frozenset[N]]:
+    """Return the strongly connected parts of a graph: in each of them everything acts on everything else, and back.
+
+    Parameters
+    ----------
+    edges : sequence of (row, column)
+        Where a matrix has entries; an entry on the diagonal makes a node that may stand alone.
+
+    Examples
+    --------
+    >>> [sorted(part) for part in independent_parts([(1, 2), (2, 1), (2, 3), (3, 3)])]
+    [[3], [1, 2]]
+    """
+    rows, columns = _neighbours(edges), _neighbours((j, i) for i, j in edges)
+    return _pieces(rows, rows, columns)
 
 
 class Determinant:
@@ -56,7 +97,7 @@ class Determinant:
 
     def factors(self, nodes: frozenset[Node]) -> list[frozenset[Node]]:
         """Return the strongly connected pieces of a set of nodes: the determinant is the product over them."""
-        return self._pieces(nodes, self._rows, self._columns)
+        return _pieces(self._inside(nodes), self._rows, self._columns)
 
     def of(self, nodes: frozenset[Node]) -> Polynomial:
         """Return the principal minor over the given nodes."""
@@ -66,22 +107,17 @@ class Determinant:
             self._known[nodes] = self._expand(nodes) if one else product(self.of(piece) for piece in pieces)
         return self._known[nodes]
 
-    def _pieces(self, nodes: frozenset[Node], *ways: Mapping[Node, Sequence[Node]]) -> list[frozenset[Node]]:
-        pieces, rest = [], [i for i in self._rows if i in nodes]
-        while rest:
-            piece = frozenset.intersection(*(_reachable(rest[0], rows, nodes) for rows in ways))
-            pieces.append(piece)
-            rest = [i for i in rest if i not in piece]
-        return sorted(pieces, key=len)
+    def _inside(self, nodes: frozenset[Node]) -> list[Node]:
+        return [i for i in self._rows if i in nodes]
 
     def _expand(self, nodes: frozenset[Node]) -> Polynomial:
-        root = max((i for i in self._rows if i in nodes), key=lambda i: sum(j in nodes for j in self._rows[i]))
+        root = max(self._inside(nodes), key=lambda i: sum(j in nodes for j in self._rows[i]))
         return self.rooted(root, nodes, self.entries.get((root, root), ZERO))
 
     def rooted(self, root: Node, nodes: frozenset[Node], diagonal: Polynomial) -> Polynomial:
         """Return the minor over the given nodes, with another diagonal entry at root."""
         value, rest = diagonal, ONE
-        for piece in self._pieces(nodes - {root}, self._both):
+        for piece in _pieces(self._inside(nodes - {root}), self._both):
             alone = self.of(piece)
             value = add(multiply(value, alone), multiply(self._through(root, piece), rest))
             rest = multiply(rest, alone)

@@ -143,6 +143,13 @@ class Link:
         """Its dampers that are in series with a spring."""
         return tuple(law for law in self.laws if isinstance(law, Maxwell))
 
+    @property
+    def own_name(self) -> str:
+        """Its name; a ValueError says where it acts if it has none."""
+        if not self.name:
+            raise ValueError(f"a damper in series with a spring has no name, at {', '.join(self.displacement)}")
+        return self.name
+
 
 def joined(*parts: Coefficients) -> dict[str, Any]:
     """Return the sum of parts of a displacement."""

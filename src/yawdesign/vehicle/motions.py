@@ -12,7 +12,7 @@ from typing import Any
 
 from yawdesign.vehicle.assembly import polynomial_matrix
 from yawdesign.vehicle.determinant import Determinant, Node
-from yawdesign.vehicle.elements import Link, Mass, Single, Spring
+from yawdesign.vehicle.elements import Link, Mass, Maxwell, Single, Spring
 from yawdesign.vehicle.polynomials import ONE, ZERO, Number, Polynomial, add, multiply, scale
 
 COUPLED = "coupled motion"
@@ -60,8 +60,13 @@ def motions(elements: Sequence[Single]) -> tuple[Motion, ...]:
     ----------
     elements : sequence
         In half sums and half differences. Of the links with `varied` the damping is not looked at.
+
+    Raises
+    ------
+    ValueError
+        If a yaw damper has no name, or is not one damper in series with a spring.
     """
-    dampers = {link.name: 1 / link.maxwell[0].K for link in elements if isinstance(link, Link) and link.varied}
+    dampers = {e.own_name: _softness(e) for e in elements if isinstance(e, Link) and e.varied}
     matrix = Determinant(_without_laws(polynomial_matrix(_with_unit_laws(elements)), dampers))
     masses = {e.coordinate: e for e in elements if isinstance(e, Mass)}
     found = []
@@ -72,6 +77,14 @@ def motions(elements: Sequence[Single]) -> tuple[Motion, ...]:
             name = COUPLED if own else _name([masses[x] for x in sorted(coordinates)])
             found.append(Motion(name, coordinates, _coefficients(matrix, piece, own)))
     return tuple(sorted(found, key=lambda motion: not motion.varied))
+
+
+def _softness(damper: Link) -> Any:
+    """Return 1/K of a yaw damper."""
+    match damper.laws:
+        case (Maxwell(K=K),):
+            return 1 / K
+    raise ValueError(f"{damper.name} must be one damper in series with a spring: its damping is C_s")
 
 
 def _with_unit_laws(elements: Iterable[Single]) -> list[Single]:

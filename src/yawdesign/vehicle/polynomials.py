@@ -31,24 +31,20 @@ ZERO: Polynomial = ()
 ONE: Polynomial = (1,)
 
 
-def _is_int(x: Number, value: int) -> bool:
-    return type(x) is int and x == value
-
-
 def plus(x: Number, y: Number) -> Any:
     """Return x + y without an operation where one of them is structurally zero."""
-    if _is_int(x, 0):
+    if type(x) is int and x == 0:
         return y
-    return x if _is_int(y, 0) else x + y
+    return x if type(y) is int and y == 0 else x + y
 
 
 def times(x: Number, y: Number) -> Any:
     """Return x * y without an operation where one of them is structurally zero or one."""
-    if _is_int(x, 0) or _is_int(y, 0):
-        return 0
-    if _is_int(x, 1):
-        return y
-    return x if _is_int(y, 1) else x * y
+    if type(x) is int and x in (0, 1):
+        return y if x else 0
+    if type(y) is int and y in (0, 1):
+        return x if y else 0
+    return x * y
 
 
 def add(p: Polynomial, q: Polynomial) -> Polynomial:

@@ -72,7 +72,7 @@ class StateSpace:
     @property
     def states(self) -> SignalNames:
         """Names of the states."""
-        strokes = (of_damper(_name(link), "stroke") for link, _ in self.strokes)
+        strokes = (of_damper(link.own_name, "stroke") for link, _ in self.strokes)
         return SignalNames((*self.coordinates, *map(velocity, self.coordinates), *strokes))
 
     @property
@@ -113,9 +113,11 @@ class StateSpace:
                     self._add_maxwell(link, law)
 
     def _respond(self, link: Link, constant: Number, offset: int) -> None:
+        displacement = [(offset + self._place[other], g) for other, g in link.displacement.items()]
         for x, force in link.force.items():
-            for other, g in link.displacement.items():
-                self._push(x, offset + self._place[other], times(times(constant, force), g))
+            each = times(constant, force)
+            for column, g in displacement:
+                self._push(x, column, times(each, g))
 
     def _add_maxwell(self, link: Link, law: Maxwell) -> None:
         if _is_absent(law):
@@ -183,7 +185,7 @@ class StateSpace:
 
         Without a stroke there is no force.
         """
-        name, displacement = _name(link), {self._place[x]: g for x, g in link.displacement.items()}
+        name, displacement = link.own_name, {self._place[x]: g for x, g in link.displacement.items()}
         force: Row = {}
         if stroke is not None:
             force = {j: times(law.K, g) for j, g in displacement.items()} | {stroke: -law.K}
@@ -238,12 +240,6 @@ class StateSpace:
 def _is_absent(law: Maxwell) -> bool:
     """Return whether a damper is known to have no damping."""
     return isinstance(law.c, (int, float)) and law.c == 0
-
-
-def _name(link: Link) -> str:
-    if not link.name:
-        raise ValueError(f"a damper in series with a spring has no name, at {', '.join(link.displacement)}")
-    return link.name
 
 
 def _acts_on(owner: Mass | Link) -> Sequence[str]:

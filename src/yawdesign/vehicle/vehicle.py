@@ -8,8 +8,9 @@ from typing import Any, Self
 from yawdesign.problem import Problem
 from yawdesign.problem.conditions import Condition, conditions
 from yawdesign.problem.parameters import parameter_keys
+from yawdesign.problem.table import key_of
 from yawdesign.vehicle.catalogue import CATALOGUE, Parameters
-from yawdesign.vehicle.elements import Element, Link, Single, folded, physical
+from yawdesign.vehicle.elements import Element, Link, Mass, Single, folded, physical
 from yawdesign.vehicle.motions import Motion, motions
 from yawdesign.vehicle.polynomials import Number, Polynomial, product, scale_variable
 from yawdesign.vehicle.state_space import StateSpace
@@ -46,7 +47,7 @@ class Model:
 
     @property
     def motions(self) -> tuple[Motion, ...]:
-        """The motions of its vehicles, with their names and coordinates; their numbers say which parameters they need."""
+        """The motions of its vehicles: their names and coordinates, and which parameters they are made of."""
         return _traced(self).motions
 
     @property
@@ -58,6 +59,11 @@ class Model:
     def joints(self) -> Mapping[str, str]:
         """By the damping of each damper in series with joints, the stiffness of these; by parameters' names."""
         return _joints(self)
+
+    @property
+    def coordinates(self) -> Mapping[str, str]:
+        """SI units of the coordinates at each end, by name, in the order of the states."""
+        return _coordinates(self)
 
     def movable(self, variables: Iterable[str]) -> tuple[str, ...]:
         """Return the names of the motions that some design variable moves; what a yaw damper reaches is among them."""
@@ -95,6 +101,17 @@ def _joints(model: Model) -> dict[str, str]:
     return {damping: stiffness for law in laws for damping in law.c for stiffness in law.K}
 
 
+@lru_cache
+def _coordinates(model: Model) -> dict[str, str]:
+    return {mass.coordinate: mass.unit for mass in _traced(model).physical if isinstance(mass, Mass)}
+
+
+@lru_cache
+def known_coordinates() -> tuple[str, ...]:
+    """Return the coordinates at each end of all vehicles in the catalogue."""
+    return tuple(dict.fromkeys(name for kind in CATALOGUE for name in Model(kind).coordinates))
+
+
 class Vehicle:
     """A model at given numbers of any type: floats, arrays, SX, rationals.
 
@@ -130,7 +147,7 @@ class Vehicle:
 
     def replace(self, **changes: Number) -> "Vehicle":
         """Return the vehicle with other numbers."""
-        names = {"lambda" if name == "lambda_" else name: value for name, value in changes.items()}
+        names = {key_of(name): value for name, value in changes.items()}
         other = Vehicle(self.model, {**self.p, **names})
         if names.keys() == {"C_s"}:  # in whose powers the motions are written: they are the same
             other.__dict__["motions"] = self.motions

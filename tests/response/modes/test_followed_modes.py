@@ -9,12 +9,13 @@ from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
 
 import yawdesign as yd
-from yawdesign.hunting.old import state_matrix
+from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.table import field_name
 from yawdesign.response.modes.eigenvectors import spectrum
-from yawdesign.response.modes.encounters import walk
 from yawdesign.response.modes.links import LOST, NEAR, PAIR, REAL, Place
+from yawdesign.response.modes.paths import walk
+from yawdesign.vehicle.vehicle import Model
 
 # Near the largest decay rate over C_s, K_m and C_m (reciprocal), where two roots all but coincide.
 NEARLY_ONE = {"C_s": 2593442.9824561398, "K_m": 1797736.679342566, "C_m": 94186.79555186098}
@@ -111,9 +112,8 @@ def test_a_near_coalescence_is_passed_the_same_way_on_every_grid():
 
 def test_paths_agree_with_a_walk_in_very_small_steps():
     problem = yd.table1(equations="as-printed")
-    p = {k: float(v) for k, v in problem.bogie.parameters().items()}
     speeds = np.linspace(100, 400, 6001) / 3.6
-    s = np.linalg.eigvals(state_matrix({**p, "v": speeds}, p["C_s"], equations="as-printed"))
+    s = np.linalg.eigvals(state_matrix(Model.of(problem).at(problem.bogie.parameters(), v=speeds)))
     paths = yd.follow_modes(problem, v=speeds[[0, -1]])
     for name in ("wheelset hunting 1", "motor lateral 1", "motor lateral 2", "frame lateral"):
         at, last = paths.eigenvalues[:, paths.names.index(name)]
@@ -146,8 +146,8 @@ def test_a_path_backwards_is_the_same_path(random_bogies, seed, name):
 
 def assert_all_roots(problem, name, value, roots):
     """Every root is one mode at each point, alone or with its conjugate, and each mode is there once."""
-    p = {**{k: float(v) for k, v in problem.bogie.parameters().items()}, "v": problem.speeds[0], name: value}
-    expected = np.linalg.eigvals(state_matrix(p, p["C_s"], kind=problem.bogie.kind, equations=problem.equations))
+    vehicle = Model.of(problem).at({**problem.bogie.parameters(), "v": problem.speeds[0], name: value})
+    expected = np.linalg.eigvals(state_matrix(vehicle))
     present = roots[~np.isnan(roots)]
     found = np.concatenate([present, present[present.imag > 0].conj()])
     assert len(found) == len(expected)

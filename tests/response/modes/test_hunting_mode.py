@@ -7,40 +7,36 @@ import yawdesign as yd
 from yawdesign.problem.table import field_name
 from yawdesign.response.modes.named_modes import hunting_mode, modes_at
 from yawdesign.response.run.run import hunting
-from yawdesign.response.run.system import system_at
+from yawdesign.vehicle.vehicle import Model
 
 
-def problem_of(p, model, C_s):
-    given = {field_name(name): value for name, value in p.items() if name != "v"}
-    given = {name: value for name, value in given.items() if model["kind"] == "power" or not _of_motors(name)}
-    bogie = yd.Bogie(kind=model["kind"], C_s=C_s, **given)
-    return yd.Problem(bogie=bogie, speed=p["v"], equations=model["equations"])
-
-
-def _of_motors(name):
-    return yd.PARAMETERS["lambda" if name == "lambda_" else name].motor
+def problem_of(vehicle):
+    model = vehicle.model
+    given = {field_name(name): vehicle.p[name] for name in model.parameters if name != "v"}
+    return yd.Problem(bogie=yd.Bogie(kind=model.kind, **given), speed=vehicle.v, equations=model.equations)
 
 
 @pytest.fixture(scope="module")
 def vehicles(random_bogies):
-    """Return random bogies with a yaw damping, and their modes."""
+    """Return random vehicles with a yaw damping, and their modes."""
     rng = np.random.default_rng(11)
-    drawn = [(p, model, float(10 ** rng.uniform(4, 6.7))) for p, model in random_bogies(150, seed=21)]
-    return [(p, model, C_s, modes_at(p, C_s, **model)) for p, model, C_s in drawn]
+    drawn = [Model(**model).at(p, C_s=float(10 ** rng.uniform(4, 6.7))) for p, model in random_bogies(150, seed=21)]
+    return [(vehicle, modes_at(vehicle)) for vehicle in drawn]
 
 
 def test_klingels_motion_goes_with_half_the_conicity(table1):
     rigid = {"K_1x": 1e10, "K_1y": 1e10, "K_2x": 1.0, "K_2y": 1.0, "C_t": 1.0, "W": 1.0}
     p = {**table1, "v": 5 / 3.6} | rigid
-    mode = hunting_mode(modes_at(p, 1.0, kind="trailer", equations="reciprocal"))
+    mode = hunting_mode(modes_at(Model("trailer").at(p, C_s=1.0)))
     assert mode.conicity == pytest.approx(0.5, abs=1e-3)
     assert mode.name == "wheelset hunting 1"
 
 
 def test_dependence_on_the_conicity_against_a_difference(table1, model):
     step = 1e-5
-    near = [modes_at({**table1, "lambda": table1["lambda"] * (1 + d)}, 1e6, **model) for d in (-step, step)]
-    for mode in modes_at(table1, 1e6, **model):
+    vehicle = Model(**model).at(table1, C_s=1e6)
+    near = [modes_at(vehicle.replace(lambda_=table1["lambda"] * (1 + d))) for d in (-step, step)]
+    for mode in modes_at(vehicle):
         low, high = (min(modes, key=lambda m: abs(m.eigenvalue - mode.eigenvalue)) for modes in near)
         slope = abs(high.eigenvalue - low.eigenvalue) / (2 * step) / abs(mode.eigenvalue)
         assert mode.conicity == pytest.approx(slope, rel=1e-4, abs=1e-6)
@@ -48,7 +44,7 @@ def test_dependence_on_the_conicity_against_a_difference(table1, model):
 
 def test_an_oscillation_that_grows_is_named_hunting(vehicles):
     unstable = 0
-    for _, _, _, modes in vehicles:
+    for _, modes in vehicles:
         if modes[0].decay_rate < 0 and modes[0].frequency > 0:
             unstable += 1
             assert hunting_mode(modes) is modes[0]
@@ -57,7 +53,7 @@ def test_an_oscillation_that_grows_is_named_hunting(vehicles):
 
 
 def test_hunting_is_number_one_of_its_kind(vehicles):
-    for _, _, _, modes in vehicles:
+    for _, modes in vehicles:
         if (mode := hunting_mode(modes)) is not None:
             assert mode.name in ("wheelset hunting", "wheelset hunting 1")
             largest = max(m.conicity for m in modes if m.frequency > 0)
@@ -66,9 +62,9 @@ def test_hunting_is_number_one_of_its_kind(vehicles):
 
 def test_the_run_and_the_modes_agree_on_the_hunting(vehicles):
     otherwise = 0
-    for p, model, C_s, modes in vehicles[:60]:
-        problem, mode = problem_of(p, model, C_s), hunting_mode(modes)
-        assert hunting(system_at(problem, p["v"])) == pytest.approx((mode.frequency, mode.damping_ratio), rel=1e-6)
+    for vehicle, modes in vehicles[:60]:
+        problem, mode = problem_of(vehicle), hunting_mode(modes)
+        assert hunting(vehicle) == pytest.approx((mode.frequency, mode.damping_ratio), rel=1e-6)
         assert yd.modes(problem).hunting == mode.name
         least = min((m for m in modes if m.frequency > 0), key=lambda m: m.damping_ratio)
         otherwise += least.frequency > 20 > mode.frequency

@@ -6,9 +6,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import yawdesign as yd
-from yawdesign.hunting.old import state_matrix
+from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.response.modes.named_modes import modes_at
-from yawdesign.vehicle.old import StateSpace, bogie, physical
+from yawdesign.response.modes.names import owners
+from yawdesign.response.run.system import System
+from yawdesign.vehicle.catalogue import CATALOGUE, trailer_bogie
+from yawdesign.vehicle.elements import Link, Maxwell, Pair
+from yawdesign.vehicle.vehicle import Model
 
 
 def roots_of(modes):
@@ -25,8 +29,9 @@ def distance(found, expected):
 @settings(max_examples=40, deadline=None)
 def test_names_cover_every_root_once(random_bogies, seed):
     for p, model in random_bogies(1, seed=seed):
-        modes = modes_at(p, 3e5, **model)
-        expected = np.linalg.eigvals(state_matrix(p, 3e5, **model))
+        vehicle = Model(**model).at(p, C_s=3e5)
+        modes = modes_at(vehicle)
+        expected = np.linalg.eigvals(state_matrix(vehicle))
         names = [mode.name for mode in modes]
         assert len(set(names)) == len(names)
         assert len(roots_of(modes)) == len(expected)
@@ -38,23 +43,17 @@ def test_names_cover_every_root_once(random_bogies, seed):
             assert all(share >= 0 for share in mode.participation.values())
 
 
-def physical_eigenvectors(p, C_s, model):
-    """Return eigenvalues, right and left eigenvectors in the coordinates of each end, and the names of the states."""
-    system = StateSpace(physical(bogie({**p, "C_s": C_s}, **model)))
-    matrix = state_matrix(p, C_s, **model)
-    s, right = np.linalg.eig(matrix)
-    return (
-        s,
-        right,
-        np.linalg.inv(right).T,
-        (*system.coordinates, *system.coordinates, *(link.name for link, _ in system.strokes)),
-    )
+def physical_eigenvectors(vehicle):
+    """Return eigenvalues, right and left eigenvectors in the coordinates of each end, and whose the states are."""
+    s, right = np.linalg.eig(state_matrix(vehicle))
+    return s, right, np.linalg.inv(right).T, [owner.name for owner in owners(vehicle.state_space)]
 
 
 def test_shapes_and_participation_in_the_coordinates_of_each_end(table1, model):
-    s, right, left, states = physical_eigenvectors(table1, 1e6, model)
+    vehicle = Model(**model).at(table1, C_s=1e6)
+    s, right, left, states = physical_eigenvectors(vehicle)
     n = states.index("y_b", 1)
-    for mode in modes_at(table1, 1e6, **model):
+    for mode in modes_at(vehicle):
         if "motor yaw, " in mode.name and model["equations"] == "as-printed":
             continue  # a double root: its eigenvectors may be mixed at will
         k = int(np.argmin(np.abs(s - mode.eigenvalue)))
@@ -67,7 +66,7 @@ def test_shapes_and_participation_in_the_coordinates_of_each_end(table1, model):
 
 
 def test_shapes_are_scaled_to_one(table1, model):
-    for mode in modes_at(table1, 1e6, **model):
+    for mode in modes_at(Model(**model).at(table1, C_s=1e6)):
         size = {x: abs(z) * (table1["a"] if x.startswith("phi") else 1) for x, z in mode.shape.items()}
         assert max(size.values()) == pytest.approx(1)
 
@@ -87,15 +86,15 @@ def test_decoupled_motors_are_named_after_how_they_move(equations, apart):
 def test_slow_running_is_the_rolling_of_two_coupled_wheelsets(table1):
     # A bogie whose frame is rigid hunts with the wavelength of its two wheelsets, 21.6124 m with Table I.
     p = {**table1, "v": 5 / 3.6, "K_1x": 1e10, "K_1y": 1e10, "K_2x": 1.0, "K_2y": 1.0, "C_t": 1.0, "W": 1.0}
-    p |= {"K_m": 1e9, "K_mphi": 1e9}
-    modes = [mode for mode in modes_at(p, 1.0, kind="power", equations="reciprocal") if mode.frequency > 0]
+    p |= {"K_m": 1e9, "K_mphi": 1e9, "C_s": 1.0}
+    modes = [mode for mode in modes_at(Model().at(p)) if mode.frequency > 0]
     hunting = min(modes, key=lambda mode: abs(mode.eigenvalue))
     assert hunting.name.startswith("wheelset hunting")
     assert hunting.frequency == pytest.approx(p["v"] / 21.61240, rel=1e-3)
 
 
 def test_a_trailer_has_no_motor_modes(table1):
-    modes = modes_at(table1, 1e6, kind="trailer", equations="reciprocal")
+    modes = modes_at(Model("trailer").at(table1, C_s=1e6))
     assert sum(2 if mode.frequency else 1 for mode in modes) == 15
     assert not any("motor" in mode.name for mode in modes)
 
@@ -115,3 +114,22 @@ def test_modes_of_a_problem():
 def test_the_worst_of_a_range_of_speeds():
     problem = yd.table1().replace(speed=yd.SpeedRange(min="200 km/h", max="300 km/h"))
     assert yd.modes(problem).speed == pytest.approx(300 / 3.6)
+
+
+def with_primary_dampers(p, equations):
+    *others, wheelsets = trailer_bogie(p, equations)
+    damper = Link((Maxwell(1e7, 2e4),), {"y_b": 1, "y_w": -1}, lever={"phi_b": p["a"]}, name="primary damper")
+    return [*others, Pair((*wheelsets.elements, damper), own=wheelsets.own)]
+
+
+def test_a_damper_that_is_new_in_the_catalogue_has_its_modes_and_outputs(monkeypatch, table1):
+    monkeypatch.setitem(CATALOGUE, "with primary dampers", with_primary_dampers)
+    vehicle = Model("with primary dampers").at(table1, C_s=1e6)
+    modes = modes_at(vehicle)
+    assert sum(2 if mode.frequency else 1 for mode in modes) == 17
+    own = {mode.name for mode in modes if "primary" in mode.name}
+    assert own == {"primary damper relaxation 1", "primary damper relaxation 2"}
+    assert {"primary damper 1", "primary damper 2"} <= modes[0].participation.keys()
+    system = System(vehicle)
+    assert {"primary_damper_force_1", "primary_damper_stroke_2"} <= system.outputs.keys()
+    assert system.C.shape == (len(system.outputs), 17)

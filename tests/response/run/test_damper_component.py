@@ -6,8 +6,9 @@ import math
 import pytest
 
 import yawdesign as yd
-from yawdesign.hunting.old import core_eigenvalues
+from yawdesign.hunting.eigenvalues import motion_eigenvalues
 from yawdesign.response.run.damper_component import dynamic_stiffness
+from yawdesign.vehicle.vehicle import Vehicle
 
 PROBLEM = yd.table1(equations="as-printed").replace(C_s="1 046 770 N s/m")
 
@@ -56,9 +57,8 @@ def test_velocity_is_the_rate_of_the_stroke():
 def test_soft_joints_decide():
     damper = yd.damper_component(PROBLEM, duration=5)
     assert damper.decay_rate == pytest.approx(1.3697336, rel=1e-6)
-    p = {**PROBLEM.bogie.parameters(), "v": PROBLEM.speeds[0], "K_ds": 1e15}
-    rigid = core_eigenvalues(p, PROBLEM.bogie.C_s, equations="as-printed")
-    assert damper.decay_rate_rigid == pytest.approx(-rigid.real.max(), rel=1e-3)
+    rigid = Vehicle.of(PROBLEM)[0].replace(K_ds=1e15)
+    assert damper.decay_rate_rigid == pytest.approx(-motion_eigenvalues(rigid, rigid.coupled).real.max(), rel=1e-3)
 
 
 def test_no_damper():

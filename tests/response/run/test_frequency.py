@@ -1,6 +1,7 @@
 """Frequency responses: the reference values, the two ways, and what may be written."""
 
 import json
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 import yawdesign as yd
 from yawdesign.response.run import frequency
 from yawdesign.response.run.system import system_at
+from yawdesign.vehicle.vehicle import Model
 
 # Exact responses of the Table I bogie, computed outside of this package (rational arithmetic).
 CASES = json.loads((Path(__file__).parents[2] / "data" / "frf.json").read_text())["cases"]
@@ -41,6 +43,21 @@ def test_a_trailer_bogie_has_no_motors():
     assert result.checked
     assert result.y_m1 is None
     assert result.to_dict()["y_m1"] is None
+    assert "y_m1" not in result.amplitudes
+    with pytest.raises(AttributeError, match="y_m3"):
+        result.y_m3  # noqa: B018
+
+
+def test_amplitudes_are_attributes_and_entries():
+    result = yd.frequency_response(yd.table1(), [20, 40])
+    assert list(result.amplitudes) == list(Model().coordinates)
+    for name, values in result.amplitudes.items():
+        assert getattr(result, name) is values
+    head = ["wavelength", "frequency", "input", "speed", "C_s", "stable", "checked"]
+    assert list(result.to_dict()) == [*head, *result.amplitudes]
+    again = pickle.loads(pickle.dumps(result))
+    assert again.phi_m2 == pytest.approx(result.phi_m2)
+    assert repr(again) == repr(result)
 
 
 def test_a_very_long_wave_carries_everything_along_but_the_car_body():

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import yawdesign as yd
 from yawdesign.response.run import time_history as motion
-from yawdesign.response.run.fitted_decay import fitted_rate
+from yawdesign.response.run.run import fitted_rate
 from yawdesign.response.run.system import system_at
 from yawdesign.response.run.time_steps import first_order_hold
 

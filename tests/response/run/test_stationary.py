@@ -41,7 +41,7 @@ def by_lyapunov(system, which):
     A[n : n + m, n : n + m] = A[n + m :, n + m :] = a
     B1, B2 = np.zeros((2, n + 2 * m, 1))
     B1[n : n + m, 0] = B2[n + m :, 0] = b
-    cross = expm(A * system.lag) @ B1 @ B2.T
+    cross = expm(A * system.wheelsets.lags[1]) @ B1 @ B2.T
     P = solve_continuous_lyapunov(A, -(B1 @ B1.T + B2 @ B2.T + cross + cross.T))
     return np.sqrt(np.diag(P)[:n])
 

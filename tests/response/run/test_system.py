@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
+from yawdesign.hunting.eigenvalues import dense
 from yawdesign.response.run.system import system_at
-from yawdesign.vehicle.old import StateSpace, bogie, folded, physical, unit_of
+from yawdesign.vehicle.vehicle import Model
 
 
 @pytest.fixture(params=["power", "trailer"])
@@ -24,7 +25,7 @@ def motion(system):
 
 def test_mass_times_acceleration_is_rail_and_spring(system, motion):
     y, _, _ = motion
-    p = system.p
+    p = system.vehicle.p
     for i, sign in (("1", 1), ("2", -1)):
         spring = p["K_1y"] * (y["y_b"] + sign * p["a"] * y["phi_b"] - y[f"y_w{i}"])
         assert p["M_w"] * y[f"y_w{i}_acceleration"] == pytest.approx(y[f"lateral_force_{i}"] + spring, rel=1e-9)
@@ -32,14 +33,14 @@ def test_mass_times_acceleration_is_rail_and_spring(system, motion):
 
 def test_rail_force_by_hand(system, motion):
     y, _, u = motion
-    p = system.p
+    p = system.vehicle.p
     gravity = p["W"] * p["lambda"] / p["b"] * (y["y_w1"] - u[0]) - p["W"] * u[1]
     creep = 2 * p["f_11"] * (y["y_w1_velocity"] / system.v - y["phi_w1"])
     assert y["lateral_force_1"] == pytest.approx(-gravity - creep, rel=1e-12)
 
 
 def test_yaw_moment_of_the_track_by_hand(system):
-    p = system.p
+    p = system.vehicle.p
     row = len(system.coordinates) + system.coordinates.index("phi_w1")
     expected = 2 * p["f_22"] * p["b"] * p["lambda"] / p["r"] / p["J_w"]
     assert system.B[row] == pytest.approx([expected, 0, 0, 0])
@@ -53,17 +54,14 @@ def test_each_yaw_damper_has_half_the_force_of_the_pair(system, motion):
 
 def test_half_sums_of_inputs_move_half_sums():
     """The folded elements answer half the sum of the inputs with half the sum of the wheelsets' motions."""
-    p = {**yd.table1().bogie.parameters(), "v": 80.0, "C_s": 1e6}
-    whole, halves = StateSpace(physical(bogie(p))), StateSpace(folded(bogie(p)))
-    assert whole.input_names == ("alignment_1", "cross_level_1", "alignment_2", "cross_level_2")
-    assert halves.input_names == ("alignment_+", "cross_level_+", "alignment_-", "cross_level_-")
+    vehicle = Model().at(yd.table1().bogie.parameters(), v=80.0, C_s=1e6)
+    whole, halves = vehicle.state_space, vehicle.folded_state_space
+    assert whole.inputs == ("alignment_1", "cross_level_1", "alignment_2", "cross_level_2")
+    assert halves.inputs == ("alignment_+", "cross_level_+", "alignment_-", "cross_level_-")
 
     def answer(space, u, names):
-        A = space.fill(np.zeros((space.size, space.size)))
-        force = np.zeros(space.size)
-        for (row, column), value in space.inputs.items():
-            force[row] += value * u[column]
-        x = np.linalg.solve(20j * np.eye(space.size) - A, force)
+        A, B = dense(space.A, space.size), dense(space.B, space.size, len(space.inputs))
+        x = np.linalg.solve(20j * np.eye(space.size) - A, B @ u)
         return [x[space.coordinates.index(name)] for name in names]
 
     one = answer(whole, [0.3, 0.1, -0.2, 0.05], ["y_b", "phi_b", "y_w1", "y_w2"])
@@ -73,13 +71,27 @@ def test_half_sums_of_inputs_move_half_sums():
 
 
 def test_units():
-    assert [unit_of(x) for x in ("y_b", "phi_w1_velocity", "y_m1_acceleration", "lateral_force_1")] == [
-        "m",
-        "rad/s",
-        "m/s^2",
-        "N",
-    ]
-    assert unit_of("yaw_damper_stroke") == "m"
+    history = yd.simulate(yd.table1(), duration=1).histories[0]
+    assert {x: history.unit(x) for x in ("alignment_1", "y_b", "phi_w1_velocity", "y_m1_acceleration")} == {
+        "alignment_1": "m",
+        "y_b": "m",
+        "phi_w1_velocity": "rad/s",
+        "y_m1_acceleration": "m/s^2",
+    }
+    assert [history.unit(x) for x in ("lateral_force_1", "yaw_damper_stroke", "cross_level_2")] == ["N", "m", "rad"]
+    assert list(history.values) == list(history.units)
+
+
+def test_the_rear_wheelset_comes_a_wheelbase_later(system):
+    p = system.vehicle.p
+    assert system.wheelsets.lags == pytest.approx((0, 2 * p["a"] / 80))
+    assert system.wheelsets.width == pytest.approx(2 * p["b"])
+
+
+@pytest.mark.parametrize("C_mphi", [0, 1e-3, 11520.0])
+def test_what_is_exactly_undamped_is_judged_as_stability_does(C_mphi):
+    problem = yd.table1().replace(C_mphi=C_mphi)
+    assert system_at(problem, problem.speeds[0]).stable is yd.stability(problem).stable is (C_mphi > 0)
 
 
 def test_a_damper_without_damping_is_not_there():

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.response.run.system import system_at
 
 HEAD = "distance [m], alignment [mm], cross_level [mm], gauge [mm]"
 
@@ -27,13 +26,12 @@ def test_measured_track(tmp_path):
     assert np.max(np.abs(track.alignment)) == pytest.approx(5e-3, rel=1e-3)
     assert "1435.0 to 1435.0 mm" in track.notes[1]
     assert "does not use it" in track.notes[1]
-    system = system_at(yd.table1(), 50.0)
     history = yd.simulate(yd.table1(), track, speed=50).histories[0]
     where = history.distance
     assert where[-1] == pytest.approx(1999 * 0.25 - 2.5)
     assert history["alignment_2"] == pytest.approx(5e-3 * np.sin(2 * np.pi * where / 25), abs=1e-5)
     assert history["alignment_1"] == pytest.approx(5e-3 * np.sin(2 * np.pi * (where + 2.5) / 25), abs=1e-5)
-    angle = 4e-3 / (2 * system.p["b"])
+    angle = 4e-3 / (2 * yd.table1().bogie.b)
     assert history["cross_level_2"] == pytest.approx(angle * np.cos(2 * np.pi * where / 40), abs=1e-5)
 
 

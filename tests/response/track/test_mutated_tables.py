@@ -8,7 +8,7 @@ import pytest
 
 import yawdesign as yd
 from yawdesign.response.track.measured import MeasuredTrack
-from yawdesign.response.track.named_tracks import as_track
+from yawdesign.response.track.tracks import as_track
 
 X = 0.25 * np.arange(12)
 HEAD = "distance [m], alignment [mm], cross_level [mrad], gauge [mm]"

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.response.track.named_tracks import as_track
+from yawdesign.response.track.tracks import as_track
 
 WAVENUMBERS = np.geomspace(0.002, 10, 400)
 LOW = yd.SPECTRA["german-low"]

@@ -7,10 +7,9 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 import yawdesign as yd
-from yawdesign.response.run.system import system_at
-from yawdesign.response.track.named_tracks import NAMES, as_track
+from yawdesign.response.track.lines import Clock, Wheelsets, synthesise
 from yawdesign.response.track.spectra import SPECTRA, fra, german
-from yawdesign.response.track.tracks import Clock, synthesise
+from yawdesign.response.track.tracks import NAMES, as_track
 
 
 def deviation(spectrum, low=0.024, high=0.333):
@@ -95,14 +94,15 @@ def test_alignment_and_cross_level_are_independent():
     assert abs(np.corrcoef(history["alignment_1"], history["cross_level_1"])[0, 1]) < 0.1
 
 
-def test_the_rear_wheelset_meets_the_same_track_later():
-    system = system_at(yd.table1(), 50.0)
-    steps = round(4 / (system.lag / 20))
-    clock = Clock(system.lag / 20, steps - steps % 2)
-    u = synthesise(as_track("german-low").lines(system, clock.step * clock.steps), clock)
-    assert system.lag == pytest.approx(2.5 / 50)
-    assert u[:-20, 0] == pytest.approx(u[20:, 2], abs=1e-12)
-    assert u[:-20, 1] == pytest.approx(u[20:, 3], abs=1e-12)
+@pytest.mark.parametrize("n", [2, 4])
+def test_the_wheelsets_behind_meet_the_same_track_later(n):
+    """Two wheelsets of a bogie, or four of a vehicle with two bogies 17.5 m apart; the first meets the same in both."""
+    wheelsets = Wheelsets(50.0, (0.0, 2.5 / 50, 17.5 / 50, 20 / 50)[:n], 1.493)
+    clock = Clock(wheelsets.lags[1] / 20, 1600)
+    u = synthesise(as_track("german-low").lines(wheelsets, clock.step * clock.steps), clock)
+    assert u.shape == (1601, 2 * n)
+    for k, later in enumerate((0, 20, 140, 160)[:n]):
+        assert u[: 1601 - later, :2] == pytest.approx(u[later:, 2 * k : 2 * k + 2], abs=1e-12)
 
 
 @settings(max_examples=25, deadline=None)

@@ -83,19 +83,22 @@ def exceeding(model: Model, objective: str, names: Names, zeros: Zeros = NO_ZERO
 
 
 @lru_cache
-def beyond(objective: str, size: int) -> Tape:
+def beyond(objective: str, size: int, backwards: bool = False) -> Tape:
     """Return the tape that counts the roots beyond a line, of a polynomial with so many coefficients a0, a1, ...
 
     Further inputs for ``decay_rate``: ``level``; the roots right of -level are counted. For ``damping_ratio``:
     ``cosine``, ``sine`` of the angle at which the line through zero stands, -zeta and sqrt(1 - zeta^2); the roots right
-    of it are counted. Outputs: the count, the number of doubtful steps in it, and where on the line a root lies that is
-    the last to cross it: the square of its height, or its distance from zero.
+    of it are counted. Outputs: the count, the number of doubtful steps in it, and where a root is that crosses the
+    line: the square of its height above the real axis, or its distance from zero.
+
+    The last rows of the array know the slowest of several roots near the line best. The array of the coefficients in
+    the opposite order, whose roots are 1/s, counts the same, and it knows the fastest one.
     """
     a, place = _symbols(f"a{k}" for k in range(size)), _place(objective)
-    rows = _beyond(objective, tuple(a.values()), place)
+    rows = _beyond(objective, tuple(a.values()), place, backwards)
     # Where a pair of roots lies on the vertical line its factor r w^2 - c is left over, on another line r w - c.
-    crossing = rows[-1][0] / rows[-3][0] if objective == "decay_rate" else -rows[-2][1] / rows[-2][0]
-    return _tape({**a, **place}, [*_count(rows), crossing])
+    r, c = (rows[-3][0], rows[-1][0]) if objective == "decay_rate" else (rows[-2][0], -rows[-2][1])
+    return _tape({**a, **place}, [*_count(rows), r / c if backwards else c / r])
 
 
 @lru_cache
@@ -145,6 +148,7 @@ def _symbols(names: Iterable[str]) -> dict[str, ca.SX]:
     return {name: ca.SX.sym(name) for name in names}
 
 
+@lru_cache
 def _vehicle(model: Model, zeros: Zeros) -> Vehicle:
     """Return the vehicle whose numbers are symbols, but for those that are zero."""
     return model.at(_symbols(model.parameters) | dict.fromkeys(zeros, ca.SX(0)))
@@ -163,22 +167,33 @@ def _place(objective: str) -> dict[str, ca.SX]:
     return _symbols(("level",) if objective == "decay_rate" else ("cosine", "sine"))
 
 
-def _beyond(objective: str, p: Polynomial, place: Mapping[str, ca.SX]) -> Rows:
+def _beyond(objective: str, p: Polynomial, place: Mapping[str, ca.SX], backwards: bool = False) -> Rows:
     if objective == "decay_rate":
-        return routh_rows(shift(p, -place["level"]))
-    return sector_rows(p, place["cosine"], place["sine"])
+        moved = shift(p, -place["level"])
+        return routh_rows(moved[::-1] if backwards else moved)
+    return sector_rows(p[::-1] if backwards else p, place["cosine"], place["sine"])
 
 
-def _verdict(arrays: Iterable[Rows]) -> list[ca.SX]:
-    """Return whether all first entries are positive, and whether none is doubtful; one that is exactly zero is not."""
-    first = [(rows, k) for rows in arrays for k in range(len(rows))]
-    positive = [ca.SX(rows[k][0]) > 0 for rows, k in first]
-    return [reduce(times, positive), reduce(times, [_sure(rows, k) for rows, k in first])]
+def _verdict(arrays: Iterable[Rows]) -> list[Any]:
+    """Return whether all first entries are positive, and whether none is doubtful.
+
+    Zero is doubtful where it lowers the degree or is left over from a difference; elsewhere it is not positive. Where
+    the second entry, a coefficient, is not, there is no doubt whatever comes of the division by it.
+    """
+    positive, sure = [], []
+    for rows in arrays:
+        own = [ca.SX(row[0]) > 0 for row in rows]
+        known = [_sure(rows, k) for k in range(len(rows))]
+        positive += own
+        sure.append(reduce(times, known) + reduce(times, known[:2]) * (1 - own[1]) > 0)
+    return [reduce(times, positive), reduce(times, sure)]
 
 
 def _sure(rows: Rows, k: int) -> Any:
     size, entry = _left_over_from(rows, k), ca.fabs(ca.SX(rows[k][0]))
-    return entry < sys.float_info.max if size is None else LEFT_OVER * size < entry
+    if size is None and k:
+        return entry < sys.float_info.max
+    return LEFT_OVER * (0 if size is None else size) < entry
 
 
 def _count(rows: Rows) -> list[Any]:

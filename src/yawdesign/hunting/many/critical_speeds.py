@@ -17,7 +17,6 @@ from yawdesign.hunting.many import counts
 from yawdesign.hunting.many.critical_values import Rows
 from yawdesign.hunting.many.margins import eigenvalues
 from yawdesign.hunting.many.parameter_sets import ParameterSets
-from yawdesign.vehicle.motions import COUPLED
 
 SPEEDS = 240  # between which changes are looked for
 WITHIN = 12  # the same inside each interval with a change
@@ -194,7 +193,7 @@ def _count(sets: ParameterSets) -> tuple[Float, Bools, Float]:
     count, doubts, near = counts.unstable_roots(sets.model, sets.zeros)(sets.values)
     doubtful = doubts > 0
     if doubtful.any():
-        count[doubtful] = count_undamped(eigenvalues(sets.part(doubtful), COUPLED))
+        count[doubtful] = count_undamped(eigenvalues(sets.part(doubtful), sets.model.motions[0]))
     return count, doubtful, near
 
 
@@ -222,7 +221,7 @@ def _nearest(sets: ParameterSets, owner: Index, v: Float) -> Complex:
     """Return of every owner at its speed the eigenvalue that is nearest to the imaginary axis."""
     if not len(owner):
         return np.zeros(0, dtype=complex)
-    s = eigenvalues(sets.part(owner).replace(v=v), COUPLED)
+    s = eigenvalues(sets.part(owner).replace(v=v), sets.model.motions[0])
     nearest = np.argmin(np.abs(s.real) / np.maximum(1, np.abs(s)), axis=1)[:, None]
     return np.take_along_axis(s, nearest, axis=1)[:, 0]
 

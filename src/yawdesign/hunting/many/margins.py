@@ -20,17 +20,19 @@ from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.many.tape import Tape
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.hunting.verdict import EXACT
+from yawdesign.vehicle.motions import Motion
 
 # Between which powers of ten the margins are looked for, [rad/s / 100 rad/s] and [-].
 POWERS = {"decay_rate": (-6.0, 2.0), "damping_ratio": (-6.0, 0.0)}
-HALVINGS = 6  # of that range between two trials of Newton's method
+# Which trials look for the fastest of several roots near a line, the even or the odd ones; the others for the slowest.
+BACKWARDS = {"decay_rate": 1, "damping_ratio": 0}
 TRIALS = 3
-ALONE = {"decay_rate": 2, "damping_ratio": 1}  # most roots beyond a line whose conjugates are known to be there, too
-APART = 32  # polynomials of which one is solved for a start in the others
-NEWTON = 6  # steps
+HALVINGS = 6  # of the range of powers in each trial
+STEPS = 6  # of Newton's method
+APART = 32  # polynomials of which one is solved as a whole, for a start in the others
 ROUNDING = 2e-15  # of the coefficients
 ACCURATE = 1e-8  # largest error of a root that rounding may cause, relative to the margin
-ROWS = 256  # points whose eigenvalues fit a cache, and an allocator that gives larger pieces back each time
+ROWS = 256  # vehicles whose eigenvalues fit a cache, and an allocator that gives larger pieces back each time
 
 
 def stable(sets: ParameterSets) -> tuple[Bools, Bools]:
@@ -105,22 +107,33 @@ def margins(sets: ParameterSets, objective: str, variables: Collection[str]) -> 
     variables : collection of str
         Design variables; they decide which motions count in the margin.
     """
-    found = [_of_motion(sets, objective, name) for name in sets.model.movable(variables)]
+    movable = sets.model.movable(variables)
+    found = [_of_motion(sets, objective, motion) for motion in sets.model.motions if motion.name in movable]
     return np.min([value for value, _ in found], axis=0), np.all([passed for _, passed in found], axis=0)
 
 
-def _of_motion(sets: ParameterSets, objective: str, name: str) -> tuple[Float, Bools]:
-    p = counts.coefficients(sets.model, name, sets.zeros)(sets.values)
+def _of_motion(sets: ParameterSets, objective: str, motion: Motion) -> tuple[Float, Bools]:
+    p = counts.coefficients(sets.model, motion.name, sets.zeros)(sets.values)
     p = np.broadcast_to(p, (len(p), sets.size))
     with np.errstate(all="ignore"):
+        if len(p) == 3:
+            value = MARGINS[objective](_both_roots(p) * TIME_UNIT)
+            return value, np.isfinite(value)
         s, found = _slowest(p) if objective == "decay_rate" else _least_damped(p)
         value = MARGINS[objective](s[:, None] * TIME_UNIT)
         left = np.flatnonzero(~found)
         if len(left):
-            every = eigenvalues(sets.part(left), name)
+            every = eigenvalues(sets.part(left), motion)
             value[left] = MARGINS[objective](every)
             found[left] = _agrees(p[:, left], every)
     return value, found
+
+
+def _both_roots(p: Float) -> Complex:
+    """Return the roots of polynomials of second degree k + c s + m s^2, shape (n, 2)."""
+    k, c, m = p
+    larger = -(c + np.sqrt((c * c - 4 * k * m).astype(complex))) / 2  # nothing cancels: no damping is negative
+    return np.stack([larger / m, np.where(larger == 0, 0, k / larger)], axis=-1)
 
 
 def _slowest(p: Float) -> tuple[Complex, Bools]:
@@ -133,10 +146,7 @@ def _least_damped(p: Float) -> tuple[Complex, Bools]:
     """Return the root of every polynomial with the least damping ratio, and where it is known to be that."""
     count, sure, _ = _counted("decay_rate", p, np.zeros(p.shape[1]))
     s, found = np.zeros(p.shape[1], dtype=complex), np.zeros(p.shape[1], dtype=bool)
-    stable, unstable = (
-        np.flatnonzero(sure & (count == 0)),
-        np.flatnonzero(sure & (count > 0) & (count <= ALONE["decay_rate"])),
-    )
+    stable, unstable = (np.flatnonzero(sure & chosen) for chosen in (count == 0, (count > 0) & (count <= 2)))
     s[stable], found[stable] = _found("damping_ratio", p[:, stable], np.ones(len(stable)))
     # No line tells unstable roots by their ratio; one pair, or one real root, is also the one farthest to the right.
     s[unstable], found[unstable] = _found("decay_rate", p[:, unstable], np.full(len(unstable), -1.0))
@@ -154,8 +164,8 @@ class _Search(NamedTuple):
         Coefficients.
     sign, inner, outer : array, shape (n,)
         Sign of the levels at which the lines stand, and the powers of ten of their magnitudes.
-    line, beyond : array, shape (n,)
-        Level of a line, and how many roots surely lie beyond it, one pair at most if such a line was met.
+    alone : array, shape (n,)
+        How many roots surely lie beyond a line, the least number that was met: one or a pair, or too many.
     start : array, shape (n,)
         Where the root may be.
     """
@@ -165,8 +175,7 @@ class _Search(NamedTuple):
     sign: Any
     inner: Any
     outer: Any
-    line: Any
-    beyond: Any
+    alone: Any
     start: Any
 
     def part(self, chosen: Any) -> "_Search":
@@ -178,15 +187,15 @@ def _found(objective: str, p: Float, sign: Float) -> tuple[Complex, Bools]:
     n, (low, high) = p.shape[1], POWERS[objective]
     s, found = np.full(n, np.nan + 0j), np.zeros(n, dtype=bool)
     inner, outer = np.where(sign > 0, low, high), np.where(sign > 0, high, low)
-    search = _Search(np.arange(n), p, sign, inner, outer, np.full(n, np.nan), np.full(n, np.inf), s)
+    search = _Search(np.arange(n), p, sign, inner, outer, np.full(n, np.inf), s)
     for trial in range(TRIALS + 1):
         if trial < TRIALS:
             for _ in range(HALVINGS):
-                search = _halved(objective, search)
+                search = _halved(objective, search, backwards=trial % 2 == BACKWARDS[objective])
         else:
             search = search._replace(start=_neighbours(objective, search.p))
         root, error = _newton(search.p, search.start)
-        right = _is_alone(objective, search, root, error)
+        right = _is_right(objective, search, root, error)
         s[search.owner[right]], found[search.owner[right]] = root[right], True
         search = search.part(~right)
         if not len(search.owner):
@@ -194,13 +203,12 @@ def _found(objective: str, p: Float, sign: Float) -> tuple[Complex, Bools]:
     return s, found
 
 
-def _halved(objective: str, search: _Search) -> _Search:
+def _halved(objective: str, search: _Search, *, backwards: bool) -> _Search:
     """Return the search with a line in the middle, and where a root crosses that line."""
     middle = (search.inner + search.outer) / 2
     level = search.sign * 10**middle
-    count, sure, crossing = _counted(objective, search.p, level)
+    count, sure, crossing = _counted(objective, search.p, level, backwards)
     none = count == 0
-    new = ~none & sure & (search.beyond > ALONE[objective])
     if objective == "decay_rate":
         start = -level + 1j * np.where(count == 1, 0.0, np.sqrt(np.maximum(crossing, 0.0)))
     else:
@@ -209,10 +217,21 @@ def _halved(objective: str, search: _Search) -> _Search:
     return search._replace(
         inner=np.where(none, middle, search.inner),
         outer=np.where(none, search.outer, middle),
-        line=np.where(new, level, search.line),
-        beyond=np.where(new, count, search.beyond),
+        alone=np.where(none | ~sure, search.alone, np.minimum(count, search.alone)),
         start=start,
     )
+
+
+def _is_right(objective: str, search: _Search, s: Complex, error: Float) -> Bools:
+    """Return whether a root is accurate, lies between both lines, and alone or with its conjugate beyond the outer."""
+    margin = MARGINS[objective](s[:, None])
+    if objective == "decay_rate":
+        real, pair = s.imag == 0, np.abs(s.imag) > 2 * error
+        alone = (real & (search.alone == 1)) | (pair & (search.alone == 2))
+    else:
+        error, alone = error / np.abs(s), (s.imag > 0) & (search.alone == 1)
+    inner, outer = search.sign * 10**search.inner, search.sign * 10**search.outer
+    return np.asarray(alone & (inner < margin) & (margin < outer) & (error < ACCURATE * np.abs(margin)))
 
 
 def _neighbours(objective: str, p: Float) -> Complex:
@@ -228,16 +247,16 @@ def _neighbours(objective: str, p: Float) -> Complex:
     return np.repeat(near.real + 1j * np.abs(near.imag), APART)[: p.shape[1]]
 
 
-def _counted(objective: str, p: Float, level: Float) -> tuple[Float, Bools, Float]:
-    """Return how many roots lie beyond a line, whether that is sure, and where the last one crosses it."""
-    tape, a = counts.beyond(objective, len(p)), {f"a{k}": row for k, row in enumerate(p)}
+def _counted(objective: str, p: Float, level: Float, backwards: bool = False) -> tuple[Float, Bools, Float]:
+    """Return how many roots lie beyond a line, whether that is sure, and where one crosses it; see `counts.beyond`."""
+    tape, a = counts.beyond(objective, len(p), backwards), {f"a{k}": row for k, row in enumerate(p)}
     count, doubts, crossing = tape(a | _line(objective, level))
     return count, doubts == 0, crossing
 
 
 def _newton(p: Float, s: Complex) -> tuple[Complex, Float]:
     """Return the roots near some places, and how far off they may be."""
-    for _ in range(NEWTON):
+    for _ in range(STEPS):
         value, slope = value_and_slope(p, s)
         s = s - value / slope
     value, slope = value_and_slope(p, s)
@@ -245,26 +264,13 @@ def _newton(p: Float, s: Complex) -> tuple[Complex, Float]:
     return s, (np.abs(value) + ROUNDING * size) / np.abs(slope)
 
 
-def _is_alone(objective: str, search: _Search, s: Complex, error: Float) -> Bools:
-    """Return whether a root, or a pair of them, is all that lies beyond the line, and is accurate."""
-    margin = MARGINS[objective](s[:, None])
-    if objective == "decay_rate":
-        real, pair = s.imag == 0, np.abs(s.imag) > 2 * error
-        alone = (real & (search.beyond == 1)) | (pair & (search.beyond == 2))
-    else:
-        error, alone = error / np.abs(s), (search.beyond == 1) & (s.imag > 0)
-    return np.asarray(alone & (margin < search.line) & (error < ACCURATE * np.abs(margin)))
-
-
-def eigenvalues(sets: ParameterSets, name: str) -> Complex:
-    """Return the eigenvalues of a motion [1/s], shape (n, modes); NaN where a damper has no damping.
+def eigenvalues(sets: ParameterSets, motion: Motion) -> Complex:
+    """Return the eigenvalues of a motion of the model [1/s], shape (n, modes); NaN where a damper has no damping.
 
     Such a damper has no state of its own: where it is one among others, the vehicle is left to the single route.
     """
-    vehicle = sets.vehicle
-    (motion,) = (motion for motion in vehicle.motions if motion.name == name)
     with np.errstate(all="ignore"):
-        matrix = motion_matrix(vehicle, motion)
+        matrix = motion_matrix(sets.vehicle, motion)
     matrix = np.broadcast_to(matrix, (sets.size, *matrix.shape[-2:]))
     regular = np.isfinite(matrix).all(axis=(1, 2))
     s = np.full(matrix.shape[:2], np.nan + 0j)

@@ -1,8 +1,7 @@
 """Eigenvalues with their right and left eigenvectors, found in each independent part of the motion by itself.
 
-Motions that nothing couples may have roots that cross exactly. So the matrix is first taken apart along its own zeros:
-the strongly connected parts of its graph have their own eigenvalues, and a root can never be taken for one of another
-part.
+Parts that nothing couples may have roots that cross exactly. So the matrix is first taken apart along its own zeros:
+the strongly connected parts of its graph have their own eigenvalues, and no root can be taken for one of another part.
 """
 
 from collections.abc import Sequence
@@ -11,51 +10,25 @@ from typing import cast
 
 import numpy as np
 import scipy.linalg as sl
-from numpy.typing import NDArray
-from scipy.sparse.csgraph import breadth_first_order, connected_components
 
-from yawdesign.hunting.arrays import Complex, Float, Index
-from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.old import StateSpace, bogie, folded
-from yawdesign.vehicle.polynomials import Number
+from yawdesign.hunting.arrays import Bools, Complex, Float, Index
+from yawdesign.vehicle.determinant import independent_parts, reached_from
 
 ROUNDING = 1e-13  # relative to the size of the matrix
 
 
-@dataclass(frozen=True)
-class Motion:
-    """State matrix of a bogie in half sums and half differences of both ends.
+def parts(pattern: Bools) -> tuple[Index, ...]:
+    """Return the states of each independent part of a motion, given where its state matrix is not zero.
 
-    Parameters
-    ----------
-    matrix : ndarray, shape (n, n)
-        Of the states: coordinates, their velocities, dashpot strokes.
-    coordinates, strokes : tuple of str
-        Names of the coordinates, and of the links whose dashpot strokes are the last states.
+    Numbers that are zero, such as a conicity, may take apart what the equations couple.
     """
-
-    matrix: Float
-    coordinates: tuple[str, ...]
-    strokes: tuple[str, ...]
-
-    @property
-    def states(self) -> tuple[str, ...]:
-        """What each state belongs to; a coordinate appears twice, for itself and for its velocity."""
-        return (*self.coordinates, *self.coordinates, *self.strokes)
+    found = independent_parts(_edges(pattern | np.eye(len(pattern), dtype=bool)))
+    return tuple(np.array(states) for states in sorted(sorted(part) for part in found))
 
 
-def motion(p: Parameters, C_s: Number, *, kind: str, equations: str) -> Motion:
-    """Return the state matrix of a bogie, all numbers floats. Arguments as in `stability.modes.state_matrix`."""
-    system = StateSpace(folded(bogie({**p, "C_s": C_s}, kind=kind, equations=equations)))
-    matrix = system.fill(np.zeros((system.size, system.size)), float)
-    return Motion(np.asarray(matrix), system.coordinates, tuple(link.name for link, _ in system.strokes))
-
-
-def parts(pattern: NDArray[np.bool_]) -> tuple[Index, ...]:
-    """Return the states of each strongly connected part of a matrix, given where it has entries."""
-    count, label = connected_components(pattern, directed=True, connection="strong")
-    found = [np.flatnonzero(label == k) for k in range(count)]
-    return tuple(sorted(found, key=lambda states: int(states[0])))
+def _edges(pattern: Bools) -> list[tuple[int, int]]:
+    rows, columns = np.nonzero(pattern)
+    return [*zip(rows.tolist(), columns.tolist(), strict=True)]
 
 
 @dataclass(frozen=True)
@@ -135,7 +108,7 @@ def whole_vector(matrix: Float, states: Index, s: complex, vector: Complex) -> C
     """
     out = np.zeros(len(matrix), dtype=complex)
     out[states] = vector
-    driven = _driven_by(matrix != 0, states)
+    driven = _driven_by(matrix, states)
     if driven.size:
         force = matrix[np.ix_(driven, states)] @ vector
         free = s * np.eye(driven.size) - matrix[np.ix_(driven, driven)]
@@ -146,10 +119,13 @@ def whole_vector(matrix: Float, states: Index, s: complex, vector: Complex) -> C
     return out
 
 
-def _driven_by(pattern: NDArray[np.bool_], states: Index) -> Index:
+def _driven_by(matrix: Float, states: Index) -> Index:
     """Return the states outside a part that move because the part moves."""
-    order = breadth_first_order(pattern.T, int(states[0]), return_predecessors=False)
-    return np.asarray(np.setdiff1d(order, states), dtype=np.intp)
+    others = np.setdiff1d(np.arange(len(matrix)), states)
+    if not matrix[np.ix_(others, states)].any():
+        return others[:0]
+    reached = reached_from(int(states[0]), _edges(matrix.T != 0))
+    return np.intersect1d(others, [*reached])
 
 
 def unfold(names: Sequence[str], values: Complex, *, forces: bool = False) -> dict[str, complex]:

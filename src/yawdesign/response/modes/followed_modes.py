@@ -9,21 +9,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from yawdesign.hunting.arrays import Complex, Float, Index
-from yawdesign.hunting.eigenvalues import backward_error
+from yawdesign.hunting.arrays import Complex, Float
+from yawdesign.hunting.eigenvalues import backward_error, folded_matrix
 from yawdesign.hunting.verdict import EXACT, given_damping, stability
 from yawdesign.problem import PARAMETERS, Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
-from yawdesign.problem.table import Parameter, as_several
-from yawdesign.response.modes.eigenvectors import Motion, motion, parts
+from yawdesign.problem.table import Parameter, as_several, key_of
+from yawdesign.response.modes.eigenvectors import parts
 from yawdesign.response.modes.links import LOST
-from yawdesign.response.modes.named_modes import parameters_at
 from yawdesign.response.modes.names import named_roots
 from yawdesign.response.modes.paths import Path, follow_part, names_at_home, size
-from yawdesign.vehicle.old import characteristic
+from yawdesign.vehicle.vehicle import Model, Vehicle
 
 SPEED_NAMES = ("v", "speed")
 MOST_VALUES = 10_000  # of the parameter: about a minute and 0.3 GB
@@ -36,7 +35,7 @@ class Meeting:
     Parameters
     ----------
     low, high : float
-        The meeting lies between these values of the parameter.
+        The meeting lies between these values of the parameter, in its SI unit.
     modes : tuple of str
         Who meets.
     kind : {"become a pair", "become two real roots", "pass close by", "cannot be told apart"}
@@ -66,7 +65,7 @@ class FollowedModes(Result):
     axis, unit : str
         The parameter, and its SI unit.
     values : ndarray, shape (points,)
-        Its values.
+        Its values [`unit`].
     names : tuple of str
         Of the modes: what `modes` calls each at the problem's own value of the parameter, wherever that lies (at the
         speed that `modes` takes; at the least value of the axis, if the problem has none of its own). Of a pair that
@@ -78,7 +77,7 @@ class FollowedModes(Result):
     frequency, damping_ratio : ndarray, shape (points, modes)
         [Hz], [-].
     certainty : ndarray, shape (points - 1, modes)
-        How sure each link between neighbouring points is: one minus the error of the predicted root, relative to
+        How sure each link between neighbouring points is [-]: one minus the error of the predicted root, relative to
         the error the next best root would have had; the least over all steps in between. Above 0.75 unless two modes
         meet; nan where two meet on the real axis, since what is the same root there is a convention.
     meetings : tuple of Meeting
@@ -88,7 +87,7 @@ class FollowedModes(Result):
     evaluations : int
         Number of spectra it took.
     residual : float
-        Largest backward error of the characteristic polynomial at the eigenvalues.
+        Largest backward error of the characteristic polynomial at the eigenvalues [-].
     checked : bool
         True if every eigenvalue is a root of the characteristic polynomial, and every link is sure.
     """
@@ -138,22 +137,25 @@ def follow_modes(problem: Problem, **axis: Sequence[float | str] | NDArray[np.fl
     [1.307, 2.209, 2.553]
     """
     name, row, values = _axis(problem, axis)
-    matrices = _matrices(problem, name)
-    systems = [matrices(value) for value in values]
-    _check_states(name, systems)
-    home = _home(problem, name, values, matrices)
-    places = parts(np.any([system.matrix != 0 for system in (*systems, matrices(home))], axis=0))
+    C_s = None if name == "C_s" else given_damping(problem)
+    vehicle = Model.of(problem).at(problem.bogie.parameters(), v=problem.speeds[0])
+    matrices = _matrices(vehicle, name, values)
+    home = _home(problem, vehicle, name, values, matrices)
+    places = parts(np.any([matrices(value) != 0 for value in (*values, home)], axis=0))
     paths = [follow_part(values, home, matrices, states) for states in places]
     branches = np.hstack([path.s for path in paths])
     kept = np.flatnonzero(np.any(branches.imag >= 0, axis=0))
     kept = kept[np.argsort(size(branches[:, kept]), kind="stable")]
-    all_names = _names(problem, name, home, places, paths)
+    roots = named_roots(vehicle.replace(**{name: home}))
+    named = (names_at_home(path, states, roots) for path, states in zip(paths, places, strict=True))
+    all_names = list(chain.from_iterable(named))
     names = tuple(all_names[k] for k in kept)
     s = np.where(branches.imag >= 0, branches, complex(np.nan, np.nan))[:, kept]
     certainty = np.hstack([path.certainty for path in paths])[:, kept]
     label = {int(k): mode for k, mode in zip(kept, names, strict=True)}
     meetings = _meetings(paths, label)
-    residual = _residual(problem, name, values, s)
+    polynomial = vehicle.replace(**{name: values[:, None]}).polynomial
+    residual = float(np.nanmax(backward_error(polynomial, s)))
     sure = all(meeting.kind != LOST for meeting in meetings)
     return FollowedModes(
         axis=name,
@@ -166,7 +168,7 @@ def follow_modes(problem: Problem, **axis: Sequence[float | str] | NDArray[np.fl
         certainty=certainty,
         meetings=meetings,
         speed=None if name == "v" else float(problem.speeds[0]),
-        C_s=None if name == "C_s" else given_damping(problem),
+        C_s=C_s,
         evaluations=matrices.cache_info().misses,
         residual=residual,
         checked=residual < EXACT and sure,
@@ -179,7 +181,7 @@ def _axis(problem: Problem, axis: Mapping[str, Any]) -> tuple[str, Parameter, Fl
         listed = ", ".join(axis) or "none given"
         raise ProblemError(f"modes are followed along one parameter, not {len(axis)}: {listed}")
     (key, given), allowed = next(iter(axis.items())), (*SPEED_NAMES, *parameter_keys(problem.bogie.kind))
-    key = {"lambda_": "lambda", "speed": "v"}.get(key, key)
+    key = "v" if key == "speed" else key_of(key)
     mistakes = Mistakes()
     with mistakes.under(key):
         if key not in allowed:
@@ -206,44 +208,28 @@ def _values(key: str, row: Parameter, given: Any) -> Float:
     return np.array(values)
 
 
-def _numbers(problem: Problem, name: str, value: Any) -> tuple[dict[str, Any], Any]:
-    """Return the parameters and the yaw damping of a problem's bogie at a value, or values, of the axis."""
-    p = {**parameters_at(problem, problem.speeds[0]), name: value}
-    return p, value if name == "C_s" else given_damping(problem)
+def _matrices(vehicle: Vehicle, name: str, values: Float) -> Any:
+    """Return a function that returns, and remembers, the state matrix at a value of the axis."""
+
+    def at(value: Any) -> Float:
+        return folded_matrix(vehicle.replace(**{name: value}))
+
+    if len(at(values[0])) != len(at(values[-1])):
+        raise ProblemError(f"{name}: the value 0 takes a damper out of the model; start above it")
+    every = at(values)  # at once, which is faster; those between them follow where they are needed
+    given = dict(zip(values, np.broadcast_to(every, (len(values), *every.shape[-2:])), strict=True))
+    return cache(lambda value: given[value] if value in given else at(value))
 
 
-def _matrices(problem: Problem, name: str) -> Any:
-    """Return a function that returns, and remembers, the motion at a value of the axis."""
-
-    @cache
-    def at(value: float) -> Motion:
-        p, C_s = _numbers(problem, name, value)
-        return motion(p, C_s, **problem.model)
-
-    return at
-
-
-def _home(problem: Problem, name: str, values: Float, matrices: Callable[[float], Motion]) -> float:
+def _home(problem: Problem, vehicle: Vehicle, name: str, values: Float, matrices: Callable[[float], Float]) -> float:
     """Return the problem's own value of the axis, where the modes get their names.
 
     Where the problem has none, or there has a damper less than along the axis, it is the least one of the axis.
     """
-    own = stability(problem).speed if name == "v" else parameters_at(problem, problem.speeds[0]).get(name)
-    if own is None or len(matrices(own).matrix) != len(matrices(float(values[0])).matrix):
+    own = stability(problem).speed if name == "v" else vehicle.p.get(name)
+    if own is None or len(matrices(float(own))) != len(matrices(float(values[0]))):
         return float(values.min())
-    return own
-
-
-def _check_states(name: str, systems: Sequence[Motion]) -> None:
-    if len({len(system.matrix) for system in systems}) > 1:
-        raise ProblemError(f"{name}: the value 0 takes a damper out of the model; start above it")
-
-
-def _names(problem: Problem, name: str, home: float, places: Sequence[Index], paths: Sequence[Path]) -> list[str]:
-    p, C_s = _numbers(problem, name, home)
-    _, roots = named_roots(p, C_s, **problem.model)
-    named = (names_at_home(path, states, roots) for path, states in zip(paths, places, strict=True))
-    return list(chain.from_iterable(named))
+    return float(own)
 
 
 def _meetings(paths: Sequence[Path], label: Mapping[int, str]) -> tuple[Meeting, ...]:
@@ -254,10 +240,3 @@ def _meetings(paths: Sequence[Path], label: Mapping[int, str]) -> tuple[Meeting,
             found.append(Meeting(min(e.low, e.high), max(e.low, e.high), names, e.kind, e.s, e.distance))
         first += len(path.home)
     return tuple(sorted(found, key=lambda meeting: meeting.low))
-
-
-def _residual(problem: Problem, name: str, values: Float, s: Complex) -> float:
-    """Return the largest backward error of the characteristic polynomial at all points."""
-    p, C_s = _numbers(problem, name, values[:, None])
-    polynomial = characteristic(p, **problem.model).full(C_s)
-    return float(np.nanmax(backward_error(polynomial, s)))

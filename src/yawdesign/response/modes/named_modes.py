@@ -7,16 +7,15 @@ import numpy as np
 import scipy.linalg as sl
 
 from yawdesign.hunting.arrays import Complex, Float
-from yawdesign.hunting.eigenvalues import backward_error
-from yawdesign.hunting.verdict import EXACT, Mode, given_damping, stability
+from yawdesign.hunting.eigenvalues import backward_error, folded_matrix
+from yawdesign.hunting.verdict import EXACT, Mode, least_stable
 from yawdesign.problem import Problem
 from yawdesign.problem.result import Result
-from yawdesign.response.modes.eigenvectors import Motion, unfold, whole_vector
-from yawdesign.response.modes.hunting_mode import hunting_root
-from yawdesign.response.modes.names import NamedRoot, named_roots
-from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.old import characteristic
+from yawdesign.response.modes.eigenvectors import unfold, whole_vector
+from yawdesign.response.modes.names import NamedRoot, hunting_root, named_roots, owners
 from yawdesign.vehicle.polynomials import Polynomial
+from yawdesign.vehicle.state_space import StateSpace
+from yawdesign.vehicle.vehicle import Vehicle
 
 
 @dataclass(frozen=True)
@@ -33,13 +32,14 @@ class NamedMode(Mode):
         Displacements [m] and angles [rad], scaled so that the largest of all displacements and of all angles times the
         half wheelbase is 1 and leads with phase zero. The motion is the real part of ``shape * exp(eigenvalue t)``.
     participation : mapping str -> float
-        Share of each coordinate (with its velocity) and of each damper's stroke in the mode: left times right
+        Share of each coordinate (with its velocity) and of each damper's stroke in the mode [-]: left times right
         eigenvector. The shares sum to 1 and do not depend on units.
     conicity : float
-        How much the root depends on the conicity, |d ln eigenvalue / d ln lambda|: 1/2 for a wheelset that rolls
+        How much the root depends on the conicity, |d ln eigenvalue / d ln lambda| [-]: 1/2 for a wheelset that rolls
         freely, 0 for what knows nothing of the wheels.
     residual : float
-        The larger of two backward errors: of the characteristic polynomial at the eigenvalue, and of the eigenvector.
+        The larger of two backward errors [-]: of the characteristic polynomial at the eigenvalue, and of the
+        eigenvector.
     """
 
     name: str
@@ -102,12 +102,10 @@ def modes(problem: Problem) -> Modes:
     >>> first.name, round(first.frequency, 4), round(first.damping_ratio, 5)
     ('wheelset hunting 1', 2.5535, 0.07113)
     """
-    verdict = stability(problem)
-    p, model = parameters_at(problem, verdict.speed), problem.model
-    found = modes_at(p, given_damping(problem), **model)
+    vehicle, verdict = least_stable(problem)
+    found = modes_at(vehicle)
     hunting = hunting_mode(found)
     exact = all(mode.residual < EXACT for mode in found)
-    bogie = {name: value for name, value in p.items() if name != "v"}
     return Modes(
         modes=found,
         hunting=None if hunting is None else hunting.name,
@@ -115,31 +113,21 @@ def modes(problem: Problem) -> Modes:
         C_s=verdict.C_s,
         speed=verdict.speed,
         equations=problem.equations,
-        parameters=bogie,
+        parameters={name: float(value) for name, value in problem.bogie.parameters().items()},
         checked=verdict.checked and exact,
     )
 
 
-def parameters_at(problem: Problem, v: float) -> dict[str, float]:
-    """Return the parameters of a problem's bogie at a speed, as floats."""
-    return {**{name: float(value) for name, value in problem.bogie.parameters().items()}, "v": float(v)}
-
-
-def modes_at(p: Parameters, C_s: float, *, kind: str, equations: str) -> tuple[NamedMode, ...]:
-    """Return the modes at given parameters, the least decaying first.
+def modes_at(vehicle: Vehicle) -> tuple[NamedMode, ...]:
+    """Return the modes of a vehicle, the least decaying first.
 
     Parameters
     ----------
-    p : mapping
-        Symbols of Table I in SI units and ``v``, floats.
-    C_s : float
-        Damping of the pair of yaw dampers [N s/m].
-    kind, equations : str
-        As in `yawdesign.vehicle.catalogue.bogie`.
+    vehicle : Vehicle
+        All its numbers are floats.
     """
-    system, roots = named_roots(p, C_s, kind=kind, equations=equations)
-    polynomial = characteristic(p, kind=kind, equations=equations).full(C_s)
-    made = [_mode(root, system, float(p["a"]), polynomial) for root in roots]
+    matrix, polynomial = folded_matrix(vehicle), vehicle.polynomial
+    made = [_mode(root, vehicle, matrix, polynomial) for root in named_roots(vehicle)]
     return tuple(sorted(made, key=lambda mode: (mode.decay_rate, mode.frequency)))
 
 
@@ -155,10 +143,10 @@ def hunting_mode(modes: Sequence[NamedMode]) -> NamedMode | None:
     return None if place is None else modes[place]
 
 
-def _mode(root: NamedRoot, system: Motion, arm: float, polynomial: Polynomial) -> NamedMode:
+def _mode(root: NamedRoot, vehicle: Vehicle, matrix: Float, polynomial: Polynomial) -> NamedMode:
     s = root.s
-    vector = whole_vector(system.matrix, root.states, s, root.part.right[:, root.place])
-    left = np.zeros(len(system.matrix), dtype=complex)
+    vector = whole_vector(matrix, root.states, s, root.part.right[:, root.place])
+    left = np.zeros(len(matrix), dtype=complex)
     left[root.states] = root.part.left[:, root.place]
     return NamedMode(
         frequency=s.imag / (2 * np.pi),
@@ -166,31 +154,29 @@ def _mode(root: NamedRoot, system: Motion, arm: float, polynomial: Polynomial) -
         decay_rate=-s.real,
         name=root.name,
         eigenvalue=s,
-        shape=_shape(system, vector, arm),
-        participation=_participation(system, left, vector),
+        shape=_shape(vehicle, vector),
+        participation=_participation(vehicle.folded_state_space, left, vector),
         conicity=root.conicity,
-        residual=max(float(backward_error(polynomial, np.array(s))), _eigenvector_error(system.matrix, s, vector)),
+        residual=max(float(backward_error(polynomial, np.array(s))), _eigenvector_error(matrix, s, vector)),
     )
 
 
-def _shape(system: Motion, vector: Complex, arm: float) -> dict[str, complex]:
-    shape = unfold(system.coordinates, vector[: len(system.coordinates)])
-    weight = {x: arm if x.startswith("phi") else 1.0 for x in shape}
+def _shape(vehicle: Vehicle, vector: Complex) -> dict[str, complex]:
+    coordinates, units = vehicle.folded_state_space.coordinates, vehicle.model.coordinates
+    shape = unfold(coordinates, vector[: len(coordinates)])
+    weight = {x: float(vehicle.p["a"]) if units[x] == "rad" else 1.0 for x in shape}
     largest = max(shape, key=lambda x: weight[x] * abs(shape[x]))
     unit = weight[largest] * shape[largest] or 1.0
     return {x: value / unit for x, value in shape.items()}
 
 
-def _participation(system: Motion, left: Complex, right: Complex) -> dict[str, float]:
+def _participation(space: StateSpace, left: Complex, right: Complex) -> dict[str, float]:
     """Return the shares of the coordinates of each end and of each damper's stroke."""
-    n = len(system.coordinates)
+    n, names = len(space.coordinates), [owner.name for owner in owners(space)]
     total: dict[str, complex] = {}
-    for names, place in (
-        (system.coordinates, slice(0, n)),
-        (system.coordinates, slice(n, 2 * n)),
-        (system.strokes, slice(2 * n, None)),
-    ):
-        displacement, force = unfold(names, right[place]), unfold(names, left[place], forces=True)
+    for place in (slice(0, n), slice(n, 2 * n), slice(2 * n, None)):
+        displacement = unfold(names[place], right[place])
+        force = unfold(names[place], left[place], forces=True)
         for x, value in displacement.items():
             total[x] = total.get(x, 0) + value * force[x]
     size = sum(abs(value) for value in total.values()) or 1.0

@@ -1,31 +1,61 @@
-"""What moves in a mode, and a name for every mode: a property of the bogie with its numbers and of nothing else."""
+"""What moves in a mode, and a name for every mode: a property of the vehicle with its numbers and of nothing else."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from yawdesign.hunting.arrays import Complex, Float, Index
-from yawdesign.response.modes.eigenvectors import Eigensystem, Motion, motion, parts, spectrum
-from yawdesign.response.modes.hunting_mode import conicity_share, hunting_root
-from yawdesign.vehicle.catalogue import Parameters
-from yawdesign.vehicle.old import LATERAL_DAMPER, MOTOR_DAMPER, YAW_DAMPER
+from yawdesign.hunting.eigenvalues import folded_matrix
+from yawdesign.response.modes.eigenvectors import Eigensystem, parts, spectrum
+from yawdesign.vehicle.elements import Link, Mass, WheelRailContact
+from yawdesign.vehicle.state_space import StateSpace
+from yawdesign.vehicle.vehicle import Vehicle
 
-HUNTING = "wheelset hunting"
-GROUPS = {
-    "y_b": "frame lateral",
-    "phi_b": "frame yaw",
-    "y_w": HUNTING,
-    "phi_w": HUNTING,
-    "y_m": "motor lateral",
-    "phi_m": "motor yaw",
-    YAW_DAMPER: "yaw damper relaxation",
-    LATERAL_DAMPER: "lateral damper relaxation",
-    MOTOR_DAMPER: "motor damper relaxation",
-}
-WITHOUT_OSCILLATION = {HUNTING: "wheelset creep"}
+DEPENDS = 0.1  # of the largest dependence on the conicity: a root with less is not hunting
+
+
+def conicity_share(change: Float, places: Sequence[Index], found: Sequence[Eigensystem]) -> Float:
+    """Return by how much each root depends on the conicity, |d ln s / d ln lambda|.
+
+    Parameters
+    ----------
+    change : ndarray
+        What the conicity adds to the state matrix; since it does so linearly, also the derivative to ln lambda.
+    places, found : sequences
+        States and spectrum of each part of the motion.
+    """
+    moved = [part.velocity(change[np.ix_(states, states)]) for states, part in zip(places, found, strict=True)]
+    s = np.concatenate([part.s for part in found])
+    return np.asarray(np.abs(np.concatenate(moved)) / np.where(s == 0, 1, np.abs(s)))
+
+
+def hunting_root(s: Complex, conicity: Float) -> int | None:
+    """Return the place of the hunting root: the least decaying oscillation of those that depend on the conicity.
+
+    An oscillation depends on it if it does so by a tenth of what the one that depends most does. One that grows always
+    counts, since only the contact of wheel and rail can feed it.
+
+    Parameters
+    ----------
+    s : ndarray
+        Roots of the bogie [1/s].
+    conicity : ndarray
+        |d ln s / d ln lambda| of each.
+
+    Returns
+    -------
+    int or None
+        None if nothing that oscillates depends on the conicity.
+    """
+    waves = s.imag > 0
+    largest = float(np.max(conicity[waves], initial=0.0))
+    hunts = waves & ((conicity >= DEPENDS * largest) & (largest > 0) | (s.real > 0))
+    return int(np.argmax(np.where(hunts, s.real, -np.inf))) if hunts.any() else None
+
+
 LEAST = 1e-3  # a smaller share is as good as none
 CERTAIN = 1e30  # the share of a root whose group is known: no other root can take its place
 ENDS = {"+": ", both alike", "-": ", against each other"}
@@ -61,45 +91,91 @@ class NamedRoot:
         return complex(self.part.s[self.place])
 
 
-def named_roots(p: Parameters, C_s: float, *, kind: str, equations: str) -> tuple[Motion, tuple[NamedRoot, ...]]:
-    """Return the motion of a bogie, and its roots on the real axis and above it with their names.
+@dataclass(frozen=True)
+class Group:
+    """Bodies or dampers that modes are named after in the same words.
 
     Parameters
     ----------
-    p : mapping
-        Symbols of Table I in SI units and ``v``, floats.
-    C_s : float
-        Damping of the pair of yaw dampers [N s/m].
-    kind, equations : str
-        As in `yawdesign.vehicle.catalogue.bogie`.
+    name : str
+        What a mode is called in which they move most.
+    creeping : str
+        The same for a mode that does not oscillate.
+    hunts : bool
+        Whether they are wheelsets, after which hunting is named.
     """
-    model = {"kind": kind, "equations": equations}
-    system = motion(p, C_s, **model)
-    places = parts(system.matrix != 0)
-    found = [spectrum(system.matrix[np.ix_(states, states)]) for states in places]
-    change = system.matrix - motion({**p, "lambda": 0.0}, C_s, **model).matrix
+
+    name: str
+    creeping: str
+    hunts: bool
+
+
+@dataclass(frozen=True)
+class Owner:
+    """What a state belongs to: a coordinate, or a damper by its stroke.
+
+    Parameters
+    ----------
+    name : str
+        Of the coordinate or the damper, in half sums ``y_w+`` and half differences ``y_w-``.
+    group : Group
+        What is named like it.
+    """
+
+    name: str
+    group: Group
+
+
+def owners(space: StateSpace) -> tuple[Owner, ...]:
+    """Return what each state belongs to."""
+    contacts = [e for e in space.elements if isinstance(e, WheelRailContact)]
+    wheelsets = {x for contact in contacts for x in (contact.y, contact.phi)}
+    return tuple(_owner(element, wheelsets) for element in space.owners)
+
+
+def _owner(element: Mass | Link, wheelsets: Collection[str]) -> Owner:
+    if isinstance(element, Link):
+        name = f"{element.name.rstrip('+- ')} relaxation"
+        return Owner(element.name, Group(name, name, hunts=False))
+    name = element.name or element.coordinate.rstrip("+-")
+    return Owner(element.coordinate, Group(name, element.creeping or name, hunts=element.coordinate in wheelsets))
+
+
+def named_roots(vehicle: Vehicle) -> tuple[NamedRoot, ...]:
+    """Return the roots of a vehicle on the real axis and above it with their names.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        All its numbers are floats.
+    """
+    matrix = folded_matrix(vehicle)
+    places = parts(matrix != 0)
+    found = [spectrum(matrix[np.ix_(states, states)]) for states in places]
+    change = matrix - folded_matrix(vehicle.replace(lambda_=0.0))
     conicity = conicity_share(change, places, found)
-    names = _names(system, places, found, conicity)
-    owners = [(states, part, k) for states, part in zip(places, found, strict=True) for k in range(len(part.s))]
-    roots = [NamedRoot(names[i], *owner, float(conicity[i])) for i, owner in enumerate(owners) if i in names]
-    return system, tuple(roots)
+    names = _names(owners(vehicle.folded_state_space), places, found, conicity)
+    roots = [(states, part, k) for states, part in zip(places, found, strict=True) for k in range(len(part.s))]
+    return tuple(NamedRoot(names[i], *root, float(conicity[i])) for i, root in enumerate(roots) if i in names)
 
 
-def _names(system: Motion, places: Sequence[Index], found: Sequence[Eigensystem], conicity: Float) -> dict[int, str]:
+def _names(
+    owners: Sequence[Owner], places: Sequence[Index], found: Sequence[Eigensystem], conicity: Float
+) -> dict[int, str]:
     """Return the name of each root on the real axis or above it, by its place among all roots."""
-    states = [[system.states[i] for i in place] for place in places]
-    groups = groups_of(system)
-    share = np.hstack([shares(part, names, groups) for part, names in zip(found, states, strict=True)])
+    states = [[owners[i] for i in place] for place in places]
+    groups = tuple(dict.fromkeys(owner.group for owner in owners))
+    share = np.hstack([shares(part, own, groups) for part, own in zip(found, states, strict=True)])
     s, twin = np.concatenate([part.s for part in found]), _joined_twins(found)
     size, hunting = np.abs(s), hunting_root(s, conicity)
     if hunting is not None:
-        share[:, [hunting, twin[hunting]]] = np.where(np.array(groups) == HUNTING, CERTAIN, 0.0)[:, None]
+        share[:, [hunting, twin[hunting]]] = np.where([group.hunts for group in groups], CERTAIN, 0.0)[:, None]
         size[hunting] = -1.0  # number 1
-    room = [sum(group(state) == name for state in system.states) for name in groups]
+    room = [sum(owner.group == group for owner in owners) for group in groups]
     chosen = assign_groups(share, room, twin)
-    owner = [names for names in states for _ in names]
+    part_of = [own for own in states for _ in own]
     upper = np.flatnonzero(s.imag >= 0)
-    stems = [stem(groups[chosen[i]], owner[i], bool(s[i].imag)) for i in upper]
+    stems = [_stem(groups[chosen[i]], part_of[i], bool(s[i].imag)) for i in upper]
     return dict(zip(upper.tolist(), unique_names(stems, size[upper]), strict=True))
 
 
@@ -109,25 +185,14 @@ def _joined_twins(found: Sequence[Eigensystem]) -> Index:
     return np.concatenate([part.twin + first for part, first in zip(found, start, strict=False)])
 
 
-def group(state: str) -> str:
-    """Return the name of what a state belongs to."""
-    return GROUPS[state.rstrip("+-")]
-
-
-def groups_of(motion: Motion) -> tuple[str, ...]:
-    """Return the groups that a motion has, in their order."""
-    present = {group(state) for state in motion.states}
-    return tuple(name for name in dict.fromkeys(GROUPS.values()) if name in present)
-
-
-def shares(found: Eigensystem, states: Sequence[str], groups: Sequence[str]) -> Float:
+def shares(found: Eigensystem, states: Sequence[Owner], groups: Sequence[Group]) -> Float:
     """Return by how much each group takes part in each mode, shape (groups, modes); columns sum to 1.
 
     The participation of a group is the sum of left times right eigenvector over its states. It does not depend on
     units, nor on the choice of coordinates inside a group.
     """
     product = found.left * found.right
-    rows = np.array([np.abs(product[[group(x) == name for x in states]].sum(axis=0)) for name in groups])
+    rows = np.array([np.abs(product[[owner.group == group for owner in states]].sum(axis=0)) for group in groups])
     total = rows.sum(axis=0)
     return np.asarray(rows / np.where(total == 0, 1, total))
 
@@ -165,8 +230,8 @@ def unique_names(stems: Sequence[str], size: Complex | Float) -> tuple[str, ...]
     return tuple(names)
 
 
-def stem(name: str, states: Sequence[str], oscillates: bool) -> str:
+def _stem(group: Group, states: Sequence[Owner], oscillates: bool) -> str:
     """Return the name of a mode of a group, in a part of the motion that has the given states."""
-    signs = {state[-1] for state in states} if len({state.rstrip("+-") for state in states}) == 1 else set()
+    signs = {owner.name[-1] for owner in states} if len({owner.name.rstrip("+-") for owner in states}) == 1 else set()
     apart = ENDS.get(signs.pop(), "") if len(signs) == 1 else ""
-    return (name if oscillates else WITHOUT_OSCILLATION.get(name, name)) + apart
+    return (group.name if oscillates else group.creeping) + apart

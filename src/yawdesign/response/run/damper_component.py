@@ -5,14 +5,14 @@ from math import atan2, pi
 
 import numpy as np
 
-from yawdesign.hunting.eigenvalues import decay_rate
-from yawdesign.hunting.old import core_eigenvalues
+from yawdesign.hunting.eigenvalues import decay_rate, motion_eigenvalues
 from yawdesign.problem.result import Result
 from yawdesign.response.run.frequency import outputs
 from yawdesign.response.run.run import Run
 from yawdesign.response.run.system import System
 from yawdesign.vehicle.elements import Maxwell
 from yawdesign.vehicle.polynomials import evaluate
+from yawdesign.vehicle.vehicle import Vehicle
 
 RIGID = 1e4  # joints so many times as stiff as they are count as rigid
 RATED_VELOCITY = 0.1  # [m/s]: where catalogues give the force
@@ -105,13 +105,10 @@ class DamperComponent(Result):
 
 def component(system: System, run: Run) -> DamperComponent | None:
     """Return the yaw damper of a bogie in a run; None if it has no damping."""
-    C_s, K_ds = system.C_s, float(system.p["K_ds"])
+    vehicle, C_s, K_ds = system.vehicle, system.C_s, float(system.vehicle.p["K_ds"])
     if C_s == 0:
         return None
     each = C_s / 2
-    rates = [
-        float(decay_rate(core_eigenvalues({**system.p, "K_ds": K}, C_s, **system.model))) for K in (K_ds, K_ds * RIGID)
-    ]
     force_rms, force_peak = run.rms["yaw_damper_force"], run.peak["yaw_damper_force"]
     return DamperComponent(
         C_s=C_s,
@@ -122,8 +119,8 @@ def component(system: System, run: Run) -> DamperComponent | None:
         hunting_frequency=run.frequency,
         at_hunting=None if run.frequency is None else dynamic_stiffness(K_ds, C_s, run.frequency),
         over_frequency=tuple(dynamic_stiffness(K_ds, C_s, f) for f in FREQUENCIES),
-        decay_rate=rates[0],
-        decay_rate_rigid=rates[1],
+        decay_rate=_coupled_decay_rate(vehicle),
+        decay_rate_rigid=_coupled_decay_rate(vehicle.replace(K_ds=K_ds * RIGID)),
         speed=run.speed,
         force_rms=force_rms,
         force_peak=force_peak,
@@ -133,6 +130,10 @@ def component(system: System, run: Run) -> DamperComponent | None:
         velocity_peak=force_peak / each,
         checked=_same_in_the_bogie(system, K_ds),
     )
+
+
+def _coupled_decay_rate(vehicle: Vehicle) -> float:
+    return float(decay_rate(motion_eigenvalues(vehicle, vehicle.model.motions[0])))
 
 
 def dynamic_stiffness(K_ds: float, C_s: float, frequency: float) -> DynamicStiffness:
@@ -146,8 +147,7 @@ def dynamic_stiffness(K_ds: float, C_s: float, frequency: float) -> DynamicStiff
 
 def _same_in_the_bogie(system: System, K_ds: float) -> bool:
     omega = 2 * pi * np.array(FREQUENCIES)
-    y = outputs(system, omega, system.harmonic_input(omega, "alignment"))
-    u = system.p["b_3"] * y[:, system.outputs["phi_b"]]
-    found = 2 * np.abs(y[:, system.outputs["yaw_damper_force"]])
-    expected = [dynamic_stiffness(K_ds, system.C_s, f).stiffness for f in FREQUENCIES] * np.abs(u)
+    y = outputs(system, omega, system.wheelsets.harmonic(omega, "alignment"))
+    u, found = (np.abs(y[:, system.outputs[f"yaw_damper_{what}"]]) for what in ("displacement", "pair_force"))
+    expected = [dynamic_stiffness(K_ds, system.C_s, f).stiffness for f in FREQUENCIES] * u
     return bool(np.allclose(found, expected, rtol=EXACT, atol=0.0))

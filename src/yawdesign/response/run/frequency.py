@@ -1,6 +1,8 @@
 """Answers to a harmonic track, exact: by the state matrix, and again by the polynomial matrix."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
@@ -10,21 +12,14 @@ from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
-from yawdesign.problem.table import Parameter, as_choice, as_several
-from yawdesign.response.run.system import INPUTS, System, system_at
+from yawdesign.problem.table import as_choice, as_several
+from yawdesign.response.run.system import System, system_at
+from yawdesign.response.track.lines import INPUTS, WAVELENGTH
 from yawdesign.vehicle.assembly import polynomial_matrix
 from yawdesign.vehicle.elements import WheelRailContact
 from yawdesign.vehicle.polynomials import evaluate
+from yawdesign.vehicle.vehicle import known_coordinates
 
-WAVELENGTH = Parameter(
-    key="wavelength",
-    symbol="L",
-    unit="m",
-    meaning="wavelength of the track",
-    hard=(1e-3, 1e9),
-    usual=(1.0, 200.0),
-    source="20",
-)
 MOST_WAVELENGTHS = 100_000  # about 1 GB
 BLOCK = 1000  # frequencies solved at once
 EXACT = 1e-9  # largest relative difference of the two ways
@@ -47,12 +42,11 @@ class FrequencyResponse(Result):
         Speed [m/s] and damping of the pair of yaw dampers [N s/m].
     stable : bool
         Whether free motions die out.
-    y_b, phi_b, y_w1, phi_w1, y_w2, phi_w2 : complex or ndarray
-        Frame and wheelsets: lateral [m per unit], yaw [rad per unit].
-    y_m1, phi_m1, y_m2, phi_m2 : complex, ndarray or None
-        Motors; None in a trailer bogie.
     checked : bool
         True if state matrix and polynomial matrix give the same to 1e-9.
+    amplitudes : mapping of str to complex or ndarray
+        By coordinate, per unit of the input: lateral ones such as ``y_b`` [m], yaw angles such as ``phi_b`` [rad]. Each
+        is an attribute of the result as well, ``result.y_b``; that of a motor is None in a trailer bogie.
     """
 
     wavelength: Any
@@ -62,16 +56,17 @@ class FrequencyResponse(Result):
     C_s: float
     stable: bool
     checked: bool
-    y_b: Any
-    phi_b: Any
-    y_w1: Any
-    phi_w1: Any
-    y_w2: Any
-    phi_w2: Any
-    y_m1: Any = None
-    phi_m1: Any = None
-    y_m2: Any = None
-    phi_m2: Any = None
+    amplitudes: Mapping[str, Any]
+
+    def __getattr__(self, name: str) -> Any:
+        if name in known_coordinates():
+            return vars(self).get("amplitudes", {}).get(name)
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
+    def _entries(self) -> Mapping[str, Any]:
+        """Return its values by the keys of `to_dict`: those of all coordinates that a vehicle may have."""
+        own = {name: value for name, value in super()._entries().items() if name != "amplitudes"}
+        return own | {name: self.amplitudes.get(name) for name in known_coordinates()}
 
 
 def frequency_response(
@@ -122,7 +117,7 @@ def frequency_response(
     mistakes.report()
     system = system_at(problem, v)
     omega = 2 * np.pi * v / lengths
-    u = system.harmonic_input(omega, input)
+    u = system.wheelsets.harmonic(omega, input)
     x = states(system, omega, u)[:, : len(system.coordinates)]
     other = _by_polynomials(system, omega, u)
     scalar = isinstance(wavelength, str) or np.ndim(wavelength) == 0
@@ -136,9 +131,9 @@ def frequency_response(
         input=input,
         speed=v,
         C_s=system.C_s,
-        stable=bool(system.eigenvalues.real.max() < 0),
+        stable=system.stable,
         checked=_same(x, other),
-        **{name: shaped(x[:, k]) for k, name in enumerate(system.coordinates)},
+        amplitudes={name: shaped(x[:, k]) for k, name in enumerate(system.coordinates)},
     )
 
 
@@ -177,19 +172,20 @@ def outputs(system: System, omega: Float, u: Complex) -> Complex:
 
 
 def _by_polynomials(system: System, omega: Float, u: Complex) -> Complex:
-    entries = polynomial_matrix(system.elements)
+    space = system.space
+    entries = polynomial_matrix(space.elements)
     rows = {node: k for k, node in enumerate(dict.fromkeys(row for row, _ in entries))}
     matrix = np.zeros((len(omega), len(rows), len(rows)), dtype=complex)
-    for (row, column), p in entries.items():
-        matrix[:, rows[row], rows[column]] = evaluate(p, 1j * omega)
+    i, j = np.array([(rows[row], rows[column]) for row, column in entries]).T
+    powers = tuple(np.array(power, dtype=float) for power in zip_longest(*entries.values(), fillvalue=0))
+    matrix[:, i, j] = evaluate(powers, 1j * omega[:, None])
     force = np.zeros((len(omega), len(rows)), dtype=complex)
-    contacts = [e for e in system.elements if isinstance(e, WheelRailContact)]
-    names = [name for e in contacts for name in (e.alignment, e.cross_level)]
-    for contact in contacts:
+    columns = dict(zip(space.inputs, u.T, strict=True))
+    for contact in (e for e in space.elements if isinstance(e, WheelRailContact)):
         for (row, name), value in contact.inputs().items():
-            force[:, rows[row]] += value * u[:, names.index(name)]
+            force[:, rows[row]] += value * columns[name]
     found = np.linalg.solve(matrix, force[..., None])[..., 0]
-    return np.asarray(found[:, [rows[x] for x in system.coordinates]])
+    return np.asarray(found[:, [rows[x] for x in space.coordinates]])
 
 
 def _same(x: Complex, y: Complex) -> bool:

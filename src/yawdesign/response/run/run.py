@@ -7,15 +7,14 @@ from math import log, pi
 import numpy as np
 
 from yawdesign.hunting.arrays import Complex, Float
-from yawdesign.response.modes.hunting_mode import hunting_root
-from yawdesign.response.modes.names import named_roots
-from yawdesign.response.run.fitted_decay import fitted_rate
+from yawdesign.response.modes.names import hunting_root, named_roots
 from yawdesign.response.run.frequency import states
 from yawdesign.response.run.stationary import stationary_rms
 from yawdesign.response.run.system import System
 from yawdesign.response.run.time_history import History, Plan, Trajectory, move
-from yawdesign.response.track.named_tracks import AnyTrack
-from yawdesign.response.track.tracks import Clock, RandomTrack
+from yawdesign.response.track.lines import Clock
+from yawdesign.response.track.tracks import AnyTrack, RandomTrack
+from yawdesign.vehicle.vehicle import Vehicle
 
 AGREE = 0.01  # relative difference of two ways to the same number that is still called the same
 ROUNDING = 1e-9  # of the largest displacement: less is none
@@ -51,8 +50,8 @@ class Run:
     rms, peak : mapping of str to float
         Root mean square and largest size of every response in this run, in SI.
     rms_stationary : mapping of str to float, or None
-        Root mean square on an endless track of the same spectrum, by integration over the spectrum; None if the bogie
-        is unstable or the track not random.
+        Root mean square on an endless track of the same spectrum, in SI, by integration over the spectrum; None if the
+        bogie is unstable or the track not random.
     checked : bool
         True if fitted rate and eigenvalue agree to 1 %, and, in a stationary run over a random track, the root mean
         square of y_b and phi_b and the sum over their frequency responses.
@@ -77,21 +76,22 @@ class Run:
 
 def run(system: System, plan: Plan) -> tuple[Run, History]:
     """Run a bogie over a track."""
-    s = system.eigenvalues
-    motion = move(system, plan, float(s.real.max()))
-    return _report(system, plan.track, motion, s), motion.history(system)
+    trajectory = move(system, plan)
+    return _report(system, plan.track, trajectory), trajectory.history(system)
 
 
-def _report(system: System, track: AnyTrack, motion: Trajectory, s: Complex) -> Run:
-    abscissa, clock = float(s.real.max()), motion.clock
-    rate, _ = fitted_rate(motion.transition, clock.step, len(system.coordinates), _slowest(s))
-    rms = _named(system, np.sqrt(np.mean(motion.y**2, axis=0)))
-    frequency, ratio = hunting(system)
-    stable, settles = abscissa < 0, abscissa < 0 and rate < 0
-    as_expected = motion.start != "stationary" or _as_expected(system, track, clock, rms)
+def _report(system: System, track: AnyTrack, trajectory: Trajectory) -> Run:
+    abscissa, clock = system.abscissa, trajectory.clock
+    slowest = _slowest(system.eigenvalues)
+    rate, _ = fitted_rate(trajectory.transition, clock.step, len(system.coordinates), slowest)
+    rms = system.named(np.sqrt(np.mean(trajectory.y**2, axis=0)))
+    frequency, ratio = hunting(system.vehicle)
+    stable = system.stable
+    settles = stable and rate < 0
+    as_expected = trajectory.start != "stationary" or _as_expected(system, track, clock, rms)
     return Run(
         speed=system.v,
-        start=motion.start,
+        start=trajectory.start,
         duration=clock.step * clock.steps,
         step=clock.step,
         stable=stable,
@@ -102,14 +102,10 @@ def _report(system: System, track: AnyTrack, motion: Trajectory, s: Complex) -> 
         settles=settles,
         verdict=_verdict(rate, settles, stable),
         rms=rms,
-        peak=_named(system, np.max(np.abs(motion.y), axis=0)),
+        peak=system.named(np.max(np.abs(trajectory.y), axis=0)),
         rms_stationary=stationary_rms(system, track) if stable and isinstance(track, RandomTrack) else None,
         checked=_agree(rate, abscissa) and as_expected,
     )
-
-
-def _named(system: System, values: Float) -> dict[str, float]:
-    return {name: float(values[k]) for name, k in system.outputs.items()}
 
 
 def _slowest(s: Complex) -> float:
@@ -127,7 +123,7 @@ def _as_expected(system: System, track: AnyTrack, clock: Clock, rms: Mapping[str
     """Tell whether the run has the mean squares that frequency responses give for the lines of its track."""
     if not isinstance(track, RandomTrack):
         return True
-    lines = track.lines(system, clock.step * clock.steps)
+    lines = track.lines(system.wheelsets, clock.step * clock.steps)
     x = states(system, lines.omega, lines.amplitudes)
     expected = np.sqrt(np.sum(np.abs(x[:, : len(system.coordinates)]) ** 2, axis=0) / 2)
     still = ROUNDING * float(expected.max())  # a frame that nothing couples to the wheelsets does not move
@@ -135,10 +131,9 @@ def _as_expected(system: System, track: AnyTrack, clock: Clock, rms: Mapping[str
     return all(abs(rms[name] - size) <= AGREE * size + still for name, size in frame.items())
 
 
-def hunting(system: System) -> tuple[float | None, float | None]:
-    """Return frequency [Hz] and damping ratio of the bogie's hunting, the same root as in `yawdesign.modes`."""
-    p = {name: float(value) for name, value in system.p.items()}
-    _, roots = named_roots(p, system.C_s, **system.model)
+def hunting(vehicle: Vehicle) -> tuple[float | None, float | None]:
+    """Return frequency [Hz] and damping ratio of the hunting of a vehicle, the same root as in `yawdesign.modes`."""
+    roots = named_roots(vehicle)
     place = hunting_root(np.array([root.s for root in roots]), np.array([root.conicity for root in roots]))
     if place is None:
         return None, None
@@ -155,3 +150,56 @@ def _verdict(rate: float, settles: bool, stable: bool) -> str:
         f"UNSTABLE: amplitudes do not settle, they grow tenfold in {log(10) / rate:.3g} s; root mean square and peak "
         "belong to this length of run alone (flanges and saturating creep would limit them, a linear model has neither)"
     )
+
+
+SAMPLES = 40  # instants in which the size of the motion is averaged
+MOST_WINDOWS = 1500
+REGRESSION = 30  # windows that a straight line is laid through
+SETTLED = 1e-3  # the slope has settled when it changes by less than this part of itself
+
+
+def fitted_rate(transition: Float, step: float, coordinates: int, slowest: float) -> tuple[float, float]:
+    """Return the growth rate [1/s] fitted on a free motion, negative if it dies out, and how long that was watched [s].
+
+    All coordinates are displaced by different amounts and released. In each of many equal windows the root mean square
+    of the displacements is taken; a straight line through its logarithm has the slope looked for, once the faster modes
+    have died out and the slope no longer changes.
+
+    Parameters
+    ----------
+    transition : ndarray, shape (n, n)
+        exp(A step).
+    step : float
+        Time step [s].
+    coordinates : int
+        Number of states, from the first one on, that are displacements.
+    slowest : float
+        Frequency of the slowest oscillation that matters [Hz]; a window holds one period of it.
+    """
+    stride = max(1, round(1 / (slowest * SAMPLES * step)))
+    jump = np.linalg.matrix_power(transition, stride)
+    window = SAMPLES * stride * step
+    x = np.zeros(len(transition))
+    x[:coordinates] = 1 + np.arange(coordinates) / coordinates
+    levels: list[float] = []
+    lifted, before = 0.0, np.nan
+    while len(levels) < MOST_WINDOWS:
+        for _ in range(REGRESSION):
+            x, size = _watch(jump, x, coordinates)
+            levels.append(np.log(size) + lifted)
+            scale = float(np.linalg.norm(x))
+            x, lifted = x / scale, lifted + np.log(scale)
+        half = levels[-max(REGRESSION, len(levels) // 2) :]
+        slope = float(np.polyfit(window * np.arange(len(half)), half, 1)[0])
+        if abs(slope - before) <= SETTLED * abs(slope):
+            break
+        before = slope
+    return slope, len(levels) * window
+
+
+def _watch(jump: Float, x: Float, coordinates: int) -> tuple[Float, float]:
+    total = 0.0
+    for _ in range(SAMPLES):
+        x = jump @ x
+        total += float(x[:coordinates] @ x[:coordinates])
+    return x, float(np.sqrt(total / SAMPLES))

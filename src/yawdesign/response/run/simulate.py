@@ -1,27 +1,26 @@
 """Runs of a problem's bogie over a track, at one speed or several."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem, ProblemError
-from yawdesign.problem.arguments import checked
+from yawdesign.problem.arguments import Progress, checked
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_choice, as_quantity, as_seed, as_several
 from yawdesign.response.run.damper_component import DamperComponent, component
 from yawdesign.response.run.run import Run, run
-from yawdesign.response.run.system import System, coordinates, system_at
-from yawdesign.response.run.time_history import TRACK_INPUTS, History, Plan, planned_clock
-from yawdesign.response.track.named_tracks import as_track
-from yawdesign.response.track.tracks import Band
+from yawdesign.response.run.system import System, system_at
+from yawdesign.response.run.time_history import History, Plan, planned_clock
+from yawdesign.response.track.tracks import Band, as_track
+from yawdesign.vehicle.vehicle import Model
 
 USUAL_OFFSET = 0.01  # [m]
 MOST_TOGETHER = 10_000_000  # steps of all runs, which are kept in memory: about 5 GB
 STARTS = ("stationary", "rest", "offset")
-Progress = Callable[[str, float], Any]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -182,8 +181,8 @@ def _simulation(problem: Problem, plan: Plan, speeds: Sequence[float], progress:
         one, history = run(system, plan)
         runs.append(one)
         histories.append(history)
-    worst = max(runs, key=lambda one: one.spectral_abscissa)
-    damper = component(system_at(problem, worst.speed), worst)
+    worst, system = max(zip(runs, systems, strict=True), key=lambda both: both[0].spectral_abscissa)
+    damper = component(system, worst)
     return Simulation(
         track=plan.track.name,
         notes=plan.track.notes,
@@ -200,7 +199,7 @@ def _simulation(problem: Problem, plan: Plan, speeds: Sequence[float], progress:
 
 
 def _check_steps(systems: Sequence[System], plan: Plan) -> None:
-    steps = sum(planned_clock(x, plan, float(x.eigenvalues.real.max())).steps for x in systems)
+    steps = sum(planned_clock(system, plan).steps for system in systems)
     if steps > MOST_TOGETHER:
         text = f"{len(systems)} runs have {steps} steps together, at most {MOST_TOGETHER} are kept"
         raise ProblemError(f"speed: {text}: give fewer speeds or shorter runs")
@@ -214,7 +213,8 @@ def response_names(problem: Problem) -> tuple[str, ...]:
     problem : Problem
         With a value of ``C_s``.
     """
-    return (*TRACK_INPUTS, *system_at(problem, problem.speeds[0]).outputs)
+    space = system_at(problem, problem.speeds[0]).space
+    return (*space.inputs, *space.outputs)
 
 
 def damper_component(problem: Problem, **options: Any) -> DamperComponent:
@@ -279,15 +279,15 @@ def _offsets(problem: Problem, offset: Any, start: str) -> dict[str, float]:
         if offset is not None:
             raise ProblemError('is used with the start "offset" alone')
         return {}
-    allowed = coordinates(problem)
+    units = Model.of(problem).coordinates
     offset = USUAL_OFFSET if offset is None else offset
-    given = offset if isinstance(offset, Mapping) else {x: offset for x in allowed if x.startswith("y")}
+    given = offset if isinstance(offset, Mapping) else {x: offset for x, unit in units.items() if unit == "m"}
     mistakes = Mistakes()
     values = {}
     for name, value in given.items():
         with mistakes.under(name):
-            if name not in allowed:
-                raise ProblemError(unknown_key(name, allowed))
-            values[name] = float(as_quantity(value, "m" if name.startswith("y") else "rad"))
+            if name not in units:
+                raise ProblemError(unknown_key(name, tuple(units)))
+            values[name] = float(as_quantity(value, units[name]))
     mistakes.report()
     return values

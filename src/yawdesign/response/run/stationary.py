@@ -11,9 +11,9 @@ from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
 from yawdesign.response.run.frequency import one_speed, outputs
-from yawdesign.response.run.system import INPUTS, System, system_at
-from yawdesign.response.track.named_tracks import as_track
-from yawdesign.response.track.tracks import POINTS, WEIGHTS, RandomTrack
+from yawdesign.response.run.system import System, system_at
+from yawdesign.response.track.lines import INPUTS
+from yawdesign.response.track.tracks import POINTS, WEIGHTS, RandomTrack, as_track
 
 GRID = 150  # cells over the band, before the modes are looked at more closely
 NEAR = 24  # cells on either side of a mode
@@ -34,7 +34,7 @@ class StationaryResponse(Result):
     rms : mapping of str to float
         By response, in SI.
     rms_of : mapping of str to mapping
-        The same from "alignment" alone and from "cross_level" alone; the squares add up.
+        The same, in SI, from "alignment" alone and from "cross_level" alone; the squares add up.
     method : str
         How it was found.
     """
@@ -80,7 +80,7 @@ def stationary_response(problem: Problem, track: Any = "german-low", *, speed: A
         v = one_speed(problem, speed)
     mistakes.report()
     system = system_at(problem, v)
-    if system.eigenvalues.real.max() >= 0:
+    if not system.stable:
         raise ProblemError(f"the bogie is unstable at {3.6 * system.v:.4g} km/h: there is no stationary motion")
     rms_of = {which: np.sqrt(_mean_squares(system, road, which)) for which in INPUTS}
     total = np.sqrt(sum(rms**2 for rms in rms_of.values()))
@@ -89,19 +89,15 @@ def stationary_response(problem: Problem, track: Any = "german-low", *, speed: A
         band=str(road.band),
         speed=system.v,
         C_s=system.C_s,
-        rms=_named(system, total),
-        rms_of={which: _named(system, rms) for which, rms in rms_of.items()},
+        rms=system.named(total),
+        rms_of={which: system.named(rms) for which, rms in rms_of.items()},
         method="integral over the spectrum",
     )
 
 
-def _named(system: System, values: Any) -> dict[str, float]:
-    return {name: float(values[k]) for name, k in system.outputs.items()}
-
-
 def stationary_rms(system: System, track: RandomTrack) -> dict[str, float]:
     """Return the stationary root mean square of every output of a stable bogie."""
-    return _named(system, np.sqrt(sum(_mean_squares(system, track, which) for which in INPUTS)))
+    return system.named(np.sqrt(sum(_mean_squares(system, track, which) for which in INPUTS)))
 
 
 def _mean_squares(system: System, track: RandomTrack, which: str) -> Float:
@@ -111,7 +107,7 @@ def _mean_squares(system: System, track: RandomTrack, which: str) -> Float:
     half = np.diff(edges) / 2
     omega = ((edges[1:] + edges[:-1]) / 2)[:, None] + half[:, None] * POINTS
     S = track.spectrum.density(which, omega.ravel() / system.v) / system.v
-    H = outputs(system, omega.ravel(), system.harmonic_input(omega.ravel(), which))
+    H = outputs(system, omega.ravel(), system.wheelsets.harmonic(omega.ravel(), which))
     return np.asarray((half[:, None] * WEIGHTS).ravel() * S @ np.abs(H) ** 2)
 
 

@@ -19,15 +19,13 @@ from yawdesign.response.run.time_steps import (
     settled,
     time_step,
 )
+from yawdesign.response.track.lines import Clock, Lines, synthesise
 from yawdesign.response.track.measured import MeasuredTrack
-from yawdesign.response.track.named_tracks import AnyTrack
-from yawdesign.response.track.tracks import Clock, Lines, RandomTrack, synthesise
-from yawdesign.vehicle.old import unit_of
+from yawdesign.response.track.tracks import AnyTrack, RandomTrack
 
 USUAL_DURATION = 60.0  # [s]
 USUAL_GROWTH, LEAST_DURATION = 7.0, 2.0  # an unstable bogie usually runs until it has grown by exp(7), or for 2 s
 MOST_GROWTH = 250.0  # logarithm; a run that would grow by more is cut short, before squares of its numbers overflow
-TRACK_INPUTS = ("alignment_1", "cross_level_1", "alignment_2", "cross_level_2")
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,17 +40,23 @@ class History:
         Time [s] and way of the front wheelset [m].
     values : mapping of str to ndarray
         Track inputs (``alignment_1`` under the front wheelset, ...) and responses, in SI.
+    units : mapping of str to str
+        Their SI units.
     """
 
     speed: float
     time: Float
     distance: Float
     values: Mapping[str, Float]
+    units: Mapping[str, str]
 
     def __getitem__(self, name: str) -> Float:
+        return self.values[self._known(name)]
+
+    def _known(self, name: str) -> str:
         if name not in self.values:
             raise ProblemError(f"{name} {unknown_key(name, self.values)}; there are {', '.join(self.values)}")
-        return self.values[name]
+        return name
 
     def unit(self, name: str) -> str:
         """Return the SI unit of a column.
@@ -62,7 +66,7 @@ class History:
         name : str
             One of `values`.
         """
-        return unit_of(name)
+        return self.units[self._known(name)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +75,7 @@ class Plan:
 
     Parameters
     ----------
-    track : Track
+    track : AnyTrack
         What to run over.
     duration, length : float or None
         Duration [s] or length [m] of a run, one of them at most.
@@ -115,28 +119,30 @@ class Trajectory:
 
     def history(self, system: System) -> History:
         """Return inputs and outputs by name."""
-        values = {name: self.u[:, k] for k, name in enumerate(TRACK_INPUTS)}
-        values |= {name: self.y[:, k] for name, k in system.outputs.items()}
-        return History(system.v, self.clock.time, self.clock.time * system.v, values)
+        space, time = system.space, self.clock.time
+        names, units = (*space.inputs, *space.outputs), (*space.input_units, *space.output_units)
+        values = dict(zip(names, (*self.u.T, *self.y.T), strict=True))
+        return History(system.v, time, time * system.v, values, dict(zip(names, units, strict=True)))
 
 
-def move(system: System, plan: Plan, abscissa: float) -> Trajectory:
-    """Return the motion of a bogie with a given spectral abscissa [1/s] over a track."""
-    clock = planned_clock(system, plan, abscissa)
+def move(system: System, plan: Plan) -> Trajectory:
+    """Return the motion of a bogie over a track."""
+    clock = planned_clock(system, plan)
     hold = first_order_hold(system.A, system.B, clock.step)
     u, lines = _inputs(system, plan.track, clock)
     force = forced(hold, u) if lines is None else forced_by_lines(system, hold, lines, clock)
-    start = "rest" if plan.start == "stationary" and abscissa >= 0 else plan.start
+    start = "rest" if plan.start == "stationary" and not system.stable else plan.start
     x = _first_state(system, plan, start, hold.transition, force, u, lines)
     y = march(hold.transition, force, x) @ system.C.T + u @ system.D.T
     return Trajectory(start, clock, hold.transition, u, y)
 
 
-def planned_clock(system: System, plan: Plan, abscissa: float) -> Clock:
-    """Return the instants of the run of a bogie with a given spectral abscissa [1/s]."""
+def planned_clock(system: System, plan: Plan) -> Clock:
+    """Return the instants of the run of a bogie."""
+    abscissa = system.abscissa
     duration = plan.duration if plan.length is None else plan.length / system.v
     if isinstance(plan.track, MeasuredTrack):
-        longest = plan.track.duration(system)
+        longest = plan.track.duration(system.wheelsets)
         if duration is not None and duration > longest * (1 + 1e-9):
             raise ProblemError(
                 f"{plan.track.name}: {duration:g} s are too long, the measured track ends after {longest:.4g} s "
@@ -154,10 +160,10 @@ def planned_clock(system: System, plan: Plan, abscissa: float) -> Clock:
 def _inputs(system: System, track: AnyTrack, clock: Clock) -> tuple[Float, Lines | None]:
     """Return the inputs at all instants, and their lines where these are few enough to be taken exactly."""
     if isinstance(track, MeasuredTrack):
-        return track.inputs(system, clock), None
+        return track.inputs(system.wheelsets, clock), None
     if isinstance(track, RandomTrack):
-        return synthesise(track.lines(system, clock.step * clock.steps), clock), None
-    lines = track.lines(system)
+        return synthesise(track.lines(system.wheelsets, clock.step * clock.steps), clock), None
+    lines = track.lines(system.wheelsets)
     turned = np.exp(1j * np.outer(clock.time, lines.omega))
     return np.asarray((turned @ lines.amplitudes).real, dtype=float), lines
 

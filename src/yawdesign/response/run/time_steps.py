@@ -9,11 +9,10 @@ from yawdesign.hunting.arrays import Float
 from yawdesign.problem import ProblemError
 from yawdesign.response.run.frequency import states
 from yawdesign.response.run.system import System
-from yawdesign.response.track.tracks import Clock, Lines
+from yawdesign.response.track.lines import MOST_STEPS, Clock, Lines
 
 PER_PERIOD = 10  # instants in the period of the fastest motion, at least
 USUAL_STEP = 1e-3  # [s]
-MOST_STEPS = 5_000_000
 WELL_DAMPED = 0.7  # a mode with more damping has no period to look at
 
 

@@ -11,10 +11,9 @@ from yawdesign.problem.arguments import checked
 from yawdesign.problem.diagnostics import Diagnostic
 from yawdesign.problem.quantities import to_unit
 from yawdesign.problem.units import parse_unit
-from yawdesign.response.run.system import System
+from yawdesign.response.track.lines import Clock, Wheelsets
 from yawdesign.response.track.text_columns import Column, Table, read_columns
 from yawdesign.response.track.text_sheets import Sheet, read_sheet, report
-from yawdesign.response.track.tracks import Clock
 
 MEASURED = {
     "distance": Column(("m",), chainage=True),
@@ -77,17 +76,17 @@ class MeasuredTrack:
         """Return the frequency of a wave with four points [Hz], the shortest that straight lines can show."""
         return float(v / (4 * self.spacing))
 
-    def duration(self, system: System) -> float:
-        """Return how long both wheelsets are on the measured track [s]."""
-        return float((self.distance[-1] - self.distance[0]) / system.v - system.lag)
+    def duration(self, wheelsets: Wheelsets) -> float:
+        """Return how long all wheelsets are on the measured track [s]."""
+        return float((self.distance[-1] - self.distance[0]) / wheelsets.v - max(wheelsets.lags))
 
-    def inputs(self, system: System, clock: Clock) -> Float:
-        """Return alignment and cross-level angle at the front and the rear wheelset, shape (steps + 1, 4)."""
-        width = 1.0 if self.is_angle else 2 * system.p["b"]
-        front = self.distance[0] + system.v * (clock.time + system.lag)
+    def inputs(self, wheelsets: Wheelsets, clock: Clock) -> Float:
+        """Return alignment [m] and cross-level angle [rad] at each wheelset, shape (steps + 1, inputs)."""
+        width = 1.0 if self.is_angle else wheelsets.width
+        first = self.distance[0] + wheelsets.v * (clock.time + max(wheelsets.lags))
         columns = [
-            np.interp(x, self.distance, values)
-            for x in (front, front - system.v * system.lag)
+            np.interp(first - wheelsets.v * lag, self.distance, values)
+            for lag in wheelsets.lags
             for values in (self.alignment, self.cross_level / width)
         ]
         return np.stack(columns, axis=1)

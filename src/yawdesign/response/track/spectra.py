@@ -11,7 +11,7 @@ from yawdesign.hunting.arrays import Float
 from yawdesign.problem import ProblemError
 from yawdesign.problem.arguments import checked
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
-from yawdesign.response.track.text_cells import number
+from yawdesign.response.track.text_columns import number
 
 Density = Callable[[Float], Float]
 

@@ -11,10 +11,8 @@ from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_choice, as_quantity, as_seed
-from yawdesign.response.run.system import INPUTS
-from yawdesign.response.run.time_steps import MOST_STEPS
-from yawdesign.response.track.named_tracks import as_track
-from yawdesign.response.track.tracks import Clock, RandomTrack, synthesise
+from yawdesign.response.track.lines import INPUTS, MOST_STEPS, Clock, Wheelsets, synthesise
+from yawdesign.response.track.tracks import RandomTrack, as_track
 
 SEGMENTS = 16  # of a sample, for Welch's method
 PER_WAVE = 10  # points in the shortest wave
@@ -96,7 +94,8 @@ def spectrum_check(
     if steps > MOST_STEPS:
         raise ProblemError(f"length: {way:g} m take {steps} points, at most {MOST_STEPS} are made")
     clock = Clock(way / v / steps, steps)
-    sample = synthesise(road.lines_at(v, way / v, 0.0), clock)[:-1, INPUTS.index(input)]
+    first = Wheelsets(v, (0.0,), 0.0)
+    sample = synthesise(road.lines(first, way / v), clock)[:-1, INPUTS.index(input)]
     f, S = welch(sample, fs=steps / way, nperseg=steps // SEGMENTS, detrend=False)
     inside = (f >= low / v) & (f <= high / v)
     W = 2 * np.pi * f[inside]

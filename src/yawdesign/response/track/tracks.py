@@ -1,65 +1,30 @@
-"""Tracks: what the wheelsets meet as they run along. The rear wheelset meets it a wheelbase later."""
+"""Tracks: what the wheelsets meet as they run along, each later by its distance from the first one; and their names."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from os import PathLike, fspath
+from os.path import exists
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from yawdesign.hunting.arrays import Complex, Float
+from yawdesign.hunting.arrays import Float
 from yawdesign.problem import ProblemError
 from yawdesign.problem.arguments import checked, named
-from yawdesign.problem.diagnostics import Mistakes
+from yawdesign.problem.diagnostics import Mistakes, suggestion
 from yawdesign.problem.quantities import parse_quantity
 from yawdesign.problem.table import as_choice, as_quantity
-from yawdesign.response.run.frequency import WAVELENGTH
-from yawdesign.response.run.system import INPUTS, System
-from yawdesign.response.track.spectra import Spectrum
+from yawdesign.problem.units import shortened
+from yawdesign.response.track.lines import INPUTS, WAVELENGTH, Lines, Wheelsets
+from yawdesign.response.track.measured import MeasuredTrack, track_of
+from yawdesign.response.track.spectra import FORMS, SPECTRA, Spectrum, form_of
+from yawdesign.response.track.tabulated_spectra import is_spectrum, spectrum_of
+from yawdesign.response.track.text_sheets import read_sheet
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(6)
 FEWEST_LINES = 2
 TABLE_2 = 6.0  # angular frequency of the disturbance of Table II [rad/s]
-
-
-@dataclass(frozen=True)
-class Clock:
-    """Instants of a run: 0, step, ..., steps * step [s]."""
-
-    step: float
-    steps: int
-
-    @property
-    def time(self) -> Float:
-        """All instants [s]."""
-        return np.asarray(self.step * np.arange(self.steps + 1), dtype=float)
-
-
-@dataclass(frozen=True, eq=False)
-class Lines:
-    """Inputs as a sum of harmonics: u(t) = sum of Re(amplitudes[n] exp(j omega[n] t)).
-
-    Parameters
-    ----------
-    omega : ndarray, shape (m,)
-        Angular frequencies [rad/s].
-    amplitudes : ndarray, shape (m, 4)
-        Of alignment and cross-level at the front wheelset, then at the rear one.
-    """
-
-    omega: Float
-    amplitudes: Complex
-
-
-class Track(Protocol):
-    """What can be run over."""
-
-    name: str
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What a reader of the results must know."""
-
-    def fastest(self, v: float) -> float:
-        """Return the highest frequency of the excitation at a speed [Hz]."""
 
 
 @dataclass(frozen=True)
@@ -73,9 +38,9 @@ class Smooth:
         """Return zero: nothing excites."""
         return 0.0
 
-    def lines(self, system: System) -> Lines:
+    def lines(self, wheelsets: Wheelsets) -> Lines:
         """Return no lines."""
-        return Lines(np.zeros(0), np.zeros((0, 2 * len(INPUTS)), dtype=complex))
+        return Lines(np.zeros(0), wheelsets.harmonic(np.zeros(0), INPUTS[0]))
 
 
 @named
@@ -126,10 +91,10 @@ class Harmonic:
         """Return v / wavelength [Hz]."""
         return float(v / self.wavelength)
 
-    def lines(self, system: System) -> Lines:
+    def lines(self, wheelsets: Wheelsets) -> Lines:
         """Return the one line of this track."""
-        omega = np.array([2 * np.pi * self.fastest(system.v)])
-        return Lines(omega, self.amplitude * system.harmonic_input(omega, self.input))
+        omega = np.array([2 * np.pi * self.fastest(wheelsets.v)])
+        return Lines(omega, self.amplitude * wheelsets.harmonic(omega, self.input))
 
 
 @named
@@ -171,9 +136,11 @@ class Sinusoid:
         """Return the frequency, the same at every speed [Hz]."""
         return self.omega / (2 * np.pi)
 
-    def lines(self, system: System) -> Lines:
+    def lines(self, wheelsets: Wheelsets) -> Lines:
         """Return the one line of this track."""
-        return Lines(np.array([self.omega]), np.array([[-1j * self.amplitude, 0, 0, 0]]))
+        amplitudes = np.zeros((1, len(wheelsets.lags) * len(INPUTS)), dtype=complex)
+        amplitudes[0, 0] = -1j * self.amplitude
+        return Lines(np.array([self.omega]), amplitudes)
 
 
 @named
@@ -261,12 +228,9 @@ class RandomTrack:
         W = middle[:, None] + half[:, None] * POINTS
         return np.asarray(half * (self.spectrum.density(which, W.ravel()).reshape(W.shape) @ WEIGHTS))
 
-    def lines(self, system: System, duration: float) -> Lines:
-        """Return the harmonics of a run, at multiples of 1 / duration."""
-        return self.lines_at(system.v, duration, system.lag)
-
-    def lines_at(self, v: float, duration: float, lag: float) -> Lines:
-        """Return the harmonics at a speed [m/s], the rear wheelset's behind by a lag [s]."""
+    def lines(self, wheelsets: Wheelsets, duration: float) -> Lines:
+        """Return the harmonics of a run, at multiples of 1 / duration [s]."""
+        v = wheelsets.v
         low, high = self.band.hertz(v)
         n = np.arange(max(1, round(low * duration)), round(high * duration) + 1)
         if len(n) < FEWEST_LINES:
@@ -275,17 +239,70 @@ class RandomTrack:
         edges[[0, -1]] = low, high
         omega = np.asarray(2 * np.pi * n / duration, dtype=float)
         random = np.random.default_rng(self.seed)
-        front = np.empty((len(n), len(INPUTS)), dtype=complex)
+        first = np.empty((len(n), len(INPUTS)), dtype=complex)
         for k, which in enumerate(INPUTS):
             phase = np.exp(2j * np.pi * random.random(len(n)))
-            front[:, k] = np.sqrt(2 * self.power(which, v, edges)) * phase
-        return Lines(omega, np.hstack([front, front * np.exp(-1j * omega * lag)[:, None]]))
+            first[:, k] = np.sqrt(2 * self.power(which, v, edges)) * phase
+        return Lines(omega, wheelsets.passing(omega, first))
 
 
-def synthesise(lines: Lines, clock: Clock) -> Float:
-    """Return the inputs of lines at multiples of 1 / (steps * step) Hz, at all instants, shape (steps + 1, 4)."""
-    spectrum = np.zeros((clock.steps // 2 + 1, lines.amplitudes.shape[1]), dtype=complex)
-    places = np.rint(lines.omega / (2 * np.pi) * clock.steps * clock.step).astype(int)
-    spectrum[places] = lines.amplitudes * clock.steps / 2
-    u = np.fft.irfft(spectrum, clock.steps, axis=0)
-    return np.vstack([u, u[:1]])
+AnyTrack = Smooth | Harmonic | Sinusoid | RandomTrack | MeasuredTrack
+PLAIN: dict[str, Callable[[], AnyTrack]] = {"harmonic": Harmonic, "sinusoid": Sinusoid, "smooth": Smooth}
+NAMES = (*SPECTRA, *PLAIN, *(f"{form}:..." for form in FORMS))
+
+
+def as_track(track: Any, *, band: Band | None = None, seed: int | None = None) -> AnyTrack:
+    """Return the track that is meant.
+
+    Parameters
+    ----------
+    track : str, path, Spectrum or track
+        ``german-low``, ``german-high``, ``fra-1`` to ``fra-6``; coefficients of one's own such as
+        ``german:A_a=2e-7,A_v=4e-7`` or ``fra:A=2e-6``; ``harmonic`` (20 m, 5 mm), ``sinusoid`` (Table II), ``smooth``;
+        the name of a file with a measured track or with a spectrum; a `Spectrum`, or a track.
+    band : Band, optional
+        Of a spectrum; 0.3 to 40 Hz if not given.
+    seed : int, optional
+        Of a spectrum; 0 if not given.
+
+    Raises
+    ------
+    ProblemError
+        If there is no such track, its file has mistakes, or it is no spectrum and band or seed are given.
+    """
+    if not isinstance(track, (str, PathLike, Spectrum, AnyTrack)):
+        raise ProblemError(f"track: {track!r} is no track: give one of {', '.join(NAMES)}, or a file")
+    found = track if isinstance(track, (Spectrum, AnyTrack)) else _of_text(fspath(track))
+    if isinstance(found, Spectrum):
+        return RandomTrack(found, band or Band(), seed or 0)
+    for name, given in (("band", band), ("seed", seed)):
+        if given is not None:
+            raise ProblemError(f"{name}: the track {found.name} takes none, a spectrum does")
+    return found
+
+
+def _of_text(text: str) -> Spectrum | AnyTrack:
+    if text in PLAIN:
+        return PLAIN[text]()
+    if text in SPECTRA:
+        return SPECTRA[text]
+    if text.partition(":")[0] in FORMS and ":" in text:
+        return form_of(text)
+    if not exists(text) and not Path(text).suffix:  # noqa: PTH110 - also of names that are too long
+        raise ProblemError(
+            f"track: {shortened(text)!r} is not one of {', '.join(NAMES)}, nor a file{suggestion(text, NAMES)}"
+        )
+    sheet = read_sheet(text)
+    return spectrum_of(sheet) if is_spectrum(sheet) else track_of(sheet)
+
+
+def shaped(track: str, *, wavelength: str | None, amplitude: str | None) -> str | AnyTrack:
+    """Return a track with the wavelength and amplitude given, which only ``harmonic`` and ``sinusoid`` have."""
+    given = {name: x for name, x in (("wavelength", wavelength), ("amplitude", amplitude)) if x is not None}
+    if track == "harmonic":
+        return Harmonic(**given)
+    if track == "sinusoid" and wavelength is None:
+        return Sinusoid(amplitude) if given else Sinusoid()
+    if given:
+        raise ProblemError(f"track: {track} has no {' and no '.join(given)} to choose")
+    return track

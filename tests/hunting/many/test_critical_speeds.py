@@ -3,18 +3,27 @@
 import numpy as np
 import pytest
 import scipy.linalg
-from yawdesign.study.question import SEARCHED, Question
 
-from yawdesign.hunting.old import core_eigenvalues, core_matrix
-from yawdesign.study.answers import evaluate
+from yawdesign.hunting.eigenvalues import motion_eigenvalues, motion_matrix
+from yawdesign.hunting.many.critical_speeds import critical_speeds
+from yawdesign.hunting.many.parameter_sets import ParameterSets
+from yawdesign.vehicle.vehicle import Model
+
+SEARCHED = (10 / 3.6, 600 / 3.6)
+PRINTED = Model(equations="as-printed")
 
 
-def all_critical_speeds(p, C_s, model):
+def eigenvalues(vehicle, v):
+    running = vehicle.replace(v=v)
+    return motion_eigenvalues(running, running.coupled)
+
+
+def all_critical_speeds(vehicle):
     """Return every speed at which the sum of two eigenvalues is zero and they lie on the imaginary axis.
 
     The state matrix is A0 + A1/v, and its Kronecker sum with itself is singular exactly at such speeds.
     """
-    slow, fast = (core_matrix(p | {"v": v}, C_s, **model) for v in (1.0, 2.0))
+    slow, fast = (motion_matrix(x, x.coupled) for x in (vehicle.replace(v=1.0), vehicle.replace(v=2.0)))
     A1 = 2 * (slow - fast)
     A0 = slow - A1
     one = np.eye(len(A0))
@@ -23,51 +32,45 @@ def all_critical_speeds(p, C_s, model):
         inverse = scipy.linalg.eigvals(sums[0], -sums[1])
         candidates = 1 / inverse.real[np.isfinite(inverse) & (np.abs(inverse.imag) < 1e-6 * np.abs(inverse))]
     inside = np.sort(candidates[(candidates > SEARCHED[0]) & (candidates < SEARCHED[1])])
-    s = [core_eigenvalues(p | {"v": v}, C_s, **model) for v in inside]
+    s = [eigenvalues(vehicle, v) for v in inside]
     on_axis = [np.min(np.abs(x.real) / np.maximum(1, np.abs(x))) < 1e-5 for x in s]
     speeds = inside[np.array(on_axis, dtype=bool)]
     return speeds[np.concatenate([[True], np.diff(speeds) > 1e-5 * speeds[1:]])] if len(speeds) else speeds
 
 
-def found(p, C_s, model):
-    p = {name: x for name, x in p.items() if name != "v"} | {"C_s": C_s}
-    answers = evaluate(Question("critical_speed", model["kind"], model["equations"], SEARCHED), p)
-    assert not answers.unverified.any()
-    speeds = answers.columns["critical_speed"][0]
-    return speeds[~np.isnan(speeds)], answers.columns
+def found(vehicle, searched=SEARCHED):
+    field = critical_speeds(ParameterSets(vehicle.model, vehicle.p, 1), searched)
+    assert not field.unverified.any()
+    speeds = field.critical[0]
+    return speeds[~np.isnan(speeds)], field
 
 
 def test_trailers_have_all_their_critical_speeds(random_bogies):
-    model, several = {"kind": "trailer", "equations": "reciprocal"}, 0
+    several = 0
     for k, (p, _) in enumerate(random_bogies(12, seed=8, spread=2.0)):
-        p.pop("v")
-        C_s = 10 ** (4 + k / 4)
-        speeds, _ = found(p, C_s, model)
-        assert speeds == pytest.approx(all_critical_speeds(p, C_s, model), rel=1e-6)
+        vehicle = Model("trailer").at(p, C_s=10 ** (4 + k / 4))
+        speeds, _ = found(vehicle)
+        assert speeds == pytest.approx(all_critical_speeds(vehicle), rel=1e-6)
         several += len(speeds)
     assert several > 5
 
 
 def test_a_power_bogie(table1):
-    model = {"kind": "power", "equations": "as-printed"}
-    p = {name: x for name, x in table1.items() if name != "v"}
-    speeds, columns = found(p, 1e5, model)
-    assert speeds == pytest.approx(all_critical_speeds(p, 1e5, model), rel=1e-6)
-    assert columns["unstable_roots"][0].tolist() == [0, 2]
+    vehicle = PRINTED.at(table1, C_s=1e5)
+    speeds, field = found(vehicle)
+    assert speeds == pytest.approx(all_critical_speeds(vehicle), rel=1e-6)
+    assert field.unstable_roots[0].tolist() == [0, 2]
 
 
 def test_the_critical_speed_at_the_critical_damping_is_the_speed(table1):
-    model = {"kind": "power", "equations": "as-printed"}
-    p = {name: x for name, x in table1.items() if name != "v"}
-    speeds, columns = found(p, 90702.8897786979, model)
+    speeds, field = found(PRINTED.at(table1, C_s=90702.8897786979))
     assert speeds == pytest.approx([300 / 3.6], rel=1e-8)
-    assert columns["omega"][0] == pytest.approx([23.15473658], rel=1e-7)
+    assert field.omega[0] == pytest.approx([23.15473658], rel=1e-7)
 
 
-def test_the_range_of_the_problem_is_searched(table1):
-    asked = Question("critical_speed", "power", "as-printed", (200 / 3.6, 290 / 3.6))
-    p = {name: x for name, x in table1.items() if name != "v"} | {"C_s": np.array([1e4, 90702.0])}
-    assert evaluate(asked, p).columns["count"].tolist() == [1, 0]
+def test_a_range_is_searched(table1):
+    sets = ParameterSets(PRINTED, {**table1, "C_s": np.array([1e4, 90702.0])}, 2)
+    assert critical_speeds(sets, (200 / 3.6, 290 / 3.6)).count.tolist() == [1, 0]
 
 
 # Unstable from 219.72 to 221.12 km/h: two changes that undo each other within one of the 2.46 km/h that are looked at.
@@ -78,23 +81,22 @@ NARROW = {
     "a": 1.5399, "b": 0.91796, "a_0": 1.00365, "b_0": 0.420661, "b_1": 0.811462, "b_2": 1.27891, "b_3": 0.916541,
     "r": 0.748269, "lambda": 0.5, "f_11": 8008740, "f_22": 10645000,
 }  # fmt: skip
-RECIPROCAL = {"kind": "power", "equations": "reciprocal"}
 
 
 def test_two_changes_that_undo_each_other():
-    speeds, columns = found(NARROW, 117280.942, RECIPROCAL)
+    speeds, field = found(Model().at(NARROW, C_s=117280.942))
     assert speeds[:2] * 3.6 == pytest.approx([219.724254, 221.119203], abs=1e-6)
-    assert columns["unstable_roots"][0][:3].tolist() == [0, 2, 0]
+    assert field.unstable_roots[0][:3].tolist() == [0, 2, 0]
 
 
 @pytest.mark.parametrize("more", [0.0, 10.0, 20.0, 24.0, 30.0, 100.0])
 @pytest.mark.slow
 def test_ever_narrower_intervals(more):
     # With more damping the unstable interval shrinks; the largest real part between its ends tells whether it is there.
-    C_s = 117280.942 + more
+    vehicle = Model().at(NARROW, C_s=117280.942 + more)
     v = np.linspace(219, 222, 6001) / 3.6
-    unstable = core_eigenvalues({**NARROW, "v": v}, C_s, **RECIPROCAL).real.max(axis=1) > 0
-    speeds, _ = found(NARROW, C_s, RECIPROCAL)
+    unstable = eigenvalues(vehicle, v).real.max(axis=1) > 0
+    speeds, _ = found(vehicle)
     within = speeds[(speeds > v[0]) & (speeds < v[-1])]
     if unstable.any():
         expected = [v[unstable][0], v[unstable][-1]]
@@ -104,14 +106,13 @@ def test_ever_narrower_intervals(more):
 
 
 @pytest.mark.slow
-def test_no_change_is_missed_between_the_speeds(random_bogies):
+def test_no_change_is_missed_between_the_speeds(random_vehicles):
     several, v = 0, np.linspace(*SEARCHED, 4001)
     rng = np.random.default_rng(6)
-    for p, model in random_bogies(60, seed=9):
-        C_s = 10 ** rng.uniform(4, 7)
-        speeds, _ = found(p, C_s, model)
-        s = core_eigenvalues({**p, "v": v}, C_s, **model)
-        counts = np.sum(s.real > 0, axis=1)
+    for vehicle in random_vehicles(60, seed=9):
+        damped = vehicle.replace(C_s=10 ** rng.uniform(4, 7))
+        speeds, _ = found(damped)
+        counts = np.sum(eigenvalues(damped, v).real > 0, axis=1)
         changes = np.flatnonzero(np.diff(counts))
         # Whatever the dense look sees was found; what was found and not seen must be a pair between two of its speeds.
         for k in changes:
@@ -124,14 +125,15 @@ def test_no_change_is_missed_between_the_speeds(random_bogies):
 
 @pytest.mark.slow
 def test_several_changes_in_one_cell(random_bogies, monkeypatch):
-    model, found_two = {"kind": "power", "equations": "as-printed"}, 0
+    found_two = 0
     for p, _ in random_bogies(25, seed=5, spread=2.0):
-        many, columns = found(p, 1e5, model)
-        counts = columns["unstable_roots"][0]
+        vehicle = PRINTED.at(p, C_s=1e5)
+        many, field = found(vehicle)
+        counts = field.unstable_roots[0]
         if counts[~np.isnan(counts)].tolist() == [0, 2, 4]:
             with monkeypatch.context() as coarse:
-                coarse.setattr("yawdesign.study.speeds.SPEEDS", 1)
-                few, _ = found(p, 1e5, model)
+                coarse.setattr("yawdesign.hunting.many.critical_speeds.SPEEDS", 1)
+                few, _ = found(vehicle)
             assert few == pytest.approx(many, rel=1e-8)
             found_two += 1
     assert found_two > 1

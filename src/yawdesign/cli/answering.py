@@ -1,0 +1,122 @@
+"""What every command does: it reads its problem, says what is wrong, shows its answer and sets the exit code."""
+
+import json
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from signal import SIGINT
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from yawdesign.output.streams import ANSWER, tell, write_answer
+
+if TYPE_CHECKING:
+    from yawdesign.problem import Problem
+    from yawdesign.problem.arguments import Progress
+
+DONE, NOTHING_FEASIBLE, BAD_INPUT, SOLVER_FAILED, STOPPED = 0, 1, 2, 3, 128  # 128 and the number of the signal
+
+# What makes the tables of which kind of result, as module and function.
+TABLES_BY = {
+    "Stability": ("yawdesign.output.tables", "stability_tables"),
+    "ForwardDesign": ("yawdesign.output.tables", "design_tables"),
+    "Optimum": ("yawdesign.output.tables", "optimum_tables"),
+    "Sweep": ("yawdesign.output.sweep_tables", "sweep_tables"),
+    "Simulation": ("yawdesign.output.response_tables", "simulation_tables"),
+    "Modes": ("yawdesign.output.mode_tables", "modes_tables"),
+    "FollowedModes": ("yawdesign.output.mode_tables", "followed_tables"),
+    "Export": ("yawdesign.output.tables", "export_tables"),
+}
+
+ProblemFile = Annotated[str, typer.Argument(metavar="PROBLEM.YAML", help="The problem file.", show_default=False)]
+AsJson = Annotated[bool, typer.Option("--json", help="Print the result as JSON, in SI units.")]
+Force = Annotated[bool, typer.Option("--force", help="Replace files that are there.")]
+
+
+@contextmanager
+def mistakes_told() -> Iterator[None]:
+    """Say what is wrong, and end the command with the exit code of it."""
+    from yawdesign.problem import ProblemError
+    from yawdesign.problem.diagnostics import UnitWarning
+
+    try:
+        with warnings_told(UnitWarning):
+            yield
+    except (ProblemError, OSError, KeyboardInterrupt) as error:
+        tell(told(error))
+        raise typer.Exit(code_of(error)) from None
+
+
+def told(error: BaseException) -> str:
+    """Return what an error says to a person."""
+    if isinstance(error, KeyboardInterrupt):
+        return "interrupted"
+    if not isinstance(error, OSError):
+        return str(error)
+    if error.filename == ANSWER:
+        return f"error: {ANSWER} could not be written: {error.strerror}"
+    return f"error: {error.strerror or error}" + (f": {error.filename}" if error.filename else "")
+
+
+def code_of(error: BaseException | None) -> int:
+    """Return the exit code of an error, or of somebody's request to stop: 130 after Ctrl-C."""
+    from yawdesign.problem import ProblemError
+
+    if isinstance(error, KeyboardInterrupt):
+        return STOPPED + getattr(error, "number", SIGINT)
+    return BAD_INPUT if isinstance(error, (OSError, ProblemError)) else SOLVER_FAILED
+
+
+def ended(*, checked: bool, feasible: bool) -> typer.Exit:
+    """Return what ends a command: whether its answer is verified, and whether there is a stable or feasible design."""
+    return typer.Exit((DONE if feasible else NOTHING_FEASIBLE) if checked else SOLVER_FAILED)
+
+
+@contextmanager
+def warnings_told(kind: type[Warning] = RuntimeWarning) -> Iterator[None]:
+    """Show warnings as messages."""
+    with warnings.catch_warnings():
+        warnings.showwarning = lambda message, *_: tell(f"warning: {message}")
+        warnings.simplefilter("always", kind)
+        yield
+
+
+@contextmanager
+def progress_shown() -> "Iterator[Progress]":
+    """Show what is going on on standard error, if a person is looking."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield lambda text, part: None
+        return
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task("starting", total=1.0)
+        yield lambda text, part: bar.update(task, description=text, completed=part)
+
+
+def read_problem(path: str) -> "Problem":
+    """Return the problem of a file; warnings go to standard error."""
+    from yawdesign.problem import ProblemError, read
+
+    problem, diagnostics = read(path)
+    if problem is None:
+        raise ProblemError(diagnostics)
+    for diagnostic in diagnostics:
+        tell(diagnostic.render())
+    return problem
+
+
+def show(result: Any, as_json: bool, indent: int | None = 2) -> None:
+    """Write a result to standard output, as tables or as JSON."""
+    if as_json:
+        write_answer(json.dumps(result.to_dict(), indent=indent, allow_nan=False) + "\n")
+        return
+    from yawdesign.output.tables import rendered
+
+    home, function = TABLES_BY[type(result).__name__]
+    write_answer(rendered(getattr(import_module(home), function)(result)))

@@ -1,0 +1,44 @@
+"""Commands that answer a problem: is it stable, which damping is possible, which is best."""
+
+from importlib import import_module
+from typing import Annotated
+
+import typer
+
+from yawdesign.cli.answering import AsJson, ProblemFile, ended, mistakes_told, progress_shown, read_problem, show
+
+
+def stability(file: ProblemFile, as_json: AsJson = False) -> None:
+    """Tell whether the bogie is stable with its C_s, with all modes and margins."""
+    _answer(file, as_json, "yawdesign.hunting.verdict", "stability")
+
+
+def design(file: ProblemFile, as_json: AsJson = False) -> None:
+    """Find the stable yaw damping, the curve's limit and the golden section between them."""
+    _answer(file, as_json, "yawdesign.damper.forward", "design")
+
+
+def _answer(file: str, as_json: bool, home: str, function: str) -> None:
+    with mistakes_told():
+        problem = read_problem(file)
+        result = getattr(import_module(home), function)(problem)
+        show(result, as_json)
+    raise ended(checked=result.checked, feasible=result.stable)
+
+
+def optimise(
+    file: ProblemFile,
+    as_json: AsJson = False,
+    seed: Annotated[
+        int, typer.Option(min=0, help="Of the search points; with more than three variables try a few.")
+    ] = 0,
+) -> None:
+    """Find the C_s, K_m and C_m (or other variables) of largest stability margin that the curve allows."""
+    with mistakes_told():
+        problem = read_problem(file)
+        with progress_shown() as progress:
+            from yawdesign.damper.optimise import optimise as best
+
+            result = best(problem, seed=seed, progress=progress)
+        show(result, as_json)
+    raise ended(checked=result.status != "unverified", feasible=result.status == "optimal")
