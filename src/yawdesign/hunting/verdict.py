@@ -69,7 +69,8 @@ class Stability(Result):
     unstable_roots : int
         Number of eigenvalues in the right half-plane.
     checked : bool
-        True if Routh's array counts as many roots, and every eigenvalue is a root of the characteristic polynomial.
+        True if, under every condition, Routh's array counts as many roots, and every eigenvalue is a root of the
+        characteristic polynomial.
     worst_condition : mapping
         The condition under which this is so, of those of the problem: ``speed`` [m/s].
     requirements, cases : tuple
@@ -129,7 +130,8 @@ def least_stable(problem: Problem) -> tuple[Vehicle, Stability]:
         (vehicle, replace(stability_at(vehicle, variables), worst_condition=condition.described))
         for condition, vehicle in zip(conditions(problem), Vehicle.of(problem), strict=True)
     ]
-    return min(found, key=lambda pair: (pair[1].stable, pair[1].decay_rate))
+    vehicle, worst = min(found, key=lambda pair: (pair[1].stable, pair[1].decay_rate))
+    return vehicle, replace(worst, checked=all(result.checked for _, result in found))
 
 
 def stability_at(vehicle: Vehicle, variables: Collection[str] = ()) -> Stability:
