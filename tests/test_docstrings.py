@@ -15,7 +15,7 @@ from yawdesign.study.request import UNITS
 from yawdesign.vehicle.vehicle import Model
 
 NUMBER = re.compile(r"float|complex|ndarray")
-NO_NUMBERS = re.compile(r"Callable\[\[.*?\]|ndarray\[[^]]*\], numpy.dtype\[numpy.(bool|str)")
+NO_NUMBERS = re.compile(r"Callable\[\[.*?\]|ndarray\[[^]]*\]?, numpy.dtype\[numpy.(bool|str)")
 # What an untyped argument takes, by the type in words that stands in the docstring.
 WORDS = re.compile(r"\b(float|complex|number|numbers)\b")
 # Where the unit depends on a key or stands in another field: "in SI", "[`unit`]".
