@@ -1,14 +1,16 @@
-"""The bogie: one field for every symbol of Table I, and with it the one table of parameters."""
+"""The bogie and the car body: one field for every symbol, and with them the one table of parameters."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import partial
+from types import MappingProxyType
 from typing import Literal, get_args
 
 from .arguments import named
 from .diagnostics import Diagnostic, Mistakes
-from .table import as_choice, check_fields, documented, field_name, parameter, table
+from .table import as_choice, as_switch, check_fields, documented, field_name, parameter, table
 
 Kind = Literal["power", "trailer"]
 KINDS: tuple[str, ...] = get_args(Kind)
@@ -18,11 +20,18 @@ KINDS: tuple[str, ...] = get_args(Kind)
 _mass = partial(parameter, group="masses and yaw inertias, axle load", hard=(1e-3, 1e18))
 _spring = partial(parameter, group="suspension", hard=(0.0, 1e18))
 # A joint without stiffness would be a damper that is not there.
-_joint = partial(parameter, group="joints of the dampers, a damper having one at each end", hard=(1.0, 1e18))
+_joint = partial(
+    parameter, group="joints of the dampers, a damper having one at each end", hard=(1.0, 1e18), rigid=True
+)
 _damper = partial(parameter, group="dampers", hard=(0.0, 1e12))
 _distance = partial(parameter, group="distances", hard=(1e-3, 100.0))
 _contact = partial(parameter, group="wheel and rail", hard=(1.0, 1e15))
 _OFFSET = (0.0, 100.0)  # of a distance that may be none
+# What Table I does not have, and a bogie may.
+_primary_damper = partial(parameter, group="primary dampers, if there are any", optional=True)
+_rolling = partial(parameter, group="roll of the bogie frame, if it is to be looked at", optional=True)
+_HEIGHT = (-10.0, 10.0)
+_carried = partial(parameter, group="car body on two bogies")
 
 
 @named
@@ -173,14 +182,140 @@ class Bogie:
         r"f_{22}", "kN", "longitudinal creep coefficient of each wheel", usual=(0.5e6, 50e6), source="11 511"
     )
 
+    J_wy: float | None = parameter(
+        r"J_\mathrm{wy}",
+        "kg·m²",
+        "moment of inertia of a wheelset about its axle, for its gyroscopic moment",
+        hard=(0.0, 1e18),
+        usual=(20, 500),
+        source="180",
+        group="gyroscopic moment, if it is to be looked at",
+        optional=True,
+    )
+    C_1x: float | None = _primary_damper(
+        r"C_{1x}",
+        "kN·s/m",
+        "damping of the pair of longitudinal primary dampers of each wheelset",
+        hard=(0.0, 1e12),
+        usual=(1e3, 1e6),
+        source="20",
+    )
+    C_1y: float | None = _primary_damper(
+        r"C_{1y}",
+        "kN·s/m",
+        "damping of the pair of lateral primary dampers of each wheelset",
+        hard=(0.0, 1e12),
+        usual=(1e3, 1e6),
+        source="20",
+    )
+    K_d1x: float | None = _primary_damper(
+        r"K_\mathrm{d1x}",
+        "MN/m",
+        "stiffness of each joint of a longitudinal primary damper; without it they are rigid",
+        hard=(1.0, 1e18),
+        usual=(0.5e6, 500e6),
+        source="10",
+        rigid=True,
+    )
+    K_d1y: float | None = _primary_damper(
+        r"K_\mathrm{d1y}",
+        "MN/m",
+        "stiffness of each joint of a lateral primary damper; without it they are rigid",
+        hard=(1.0, 1e18),
+        usual=(0.5e6, 500e6),
+        source="10",
+        rigid=True,
+    )
+    I_b: float | None = _rolling(
+        r"I_\mathrm{b}",
+        "kg·m²",
+        "roll inertia of the bogie frame",
+        hard=(1e-3, 1e18),
+        usual=(200, 20e3),
+        source="3 000",
+    )
+    K_1z: float | None = _rolling(
+        r"K_{1z}",
+        "MN/m",
+        "vertical stiffness of the primary suspension of one axle box",
+        hard=(0.0, 1e18),
+        usual=(0.1e6, 20e6),
+        source="1.2",
+    )
+    C_1z: float | None = _rolling(
+        r"C_{1z}",
+        "kN·s/m",
+        "vertical damping of the primary suspension of one axle box",
+        hard=(0.0, 1e12),
+        usual=(0, 200e3),
+        source="10",
+    )
+    h_1: float | None = _rolling(
+        "h_1",
+        "m",
+        "centre of mass of the frame above the primary springs",
+        hard=_HEIGHT,
+        usual=(-0.5, 0.5),
+        source="0.1",
+    )
+    h_2: float | None = _rolling(
+        "h_2",
+        "m",
+        "secondary springs above the centre of mass of the frame",
+        hard=_HEIGHT,
+        usual=(-0.5, 1.0),
+        source="0.2",
+    )
+    h_2t: float | None = _rolling(
+        r"h_\mathrm{2t}",
+        "m",
+        "secondary lateral dampers above the centre of mass of the frame",
+        hard=_HEIGHT,
+        usual=(-0.5, 1.0),
+        source="0.1",
+    )
+    K_2z: float | None = _rolling(
+        r"K_{2z}",
+        "MN/m",
+        "vertical stiffness of the secondary suspension on one side of the bogie; under car_body, if there is one",
+        hard=(0.0, 1e18),
+        usual=(50e3, 5e6),
+        source="0.61",
+    )
+    C_2z: float | None = _rolling(
+        r"C_{2z}",
+        "kN·s/m",
+        "vertical damping of the secondary suspension on one side of the bogie; under car_body, if there is one",
+        hard=(0.0, 1e12),
+        usual=(0, 500e3),
+        source="9.8",
+    )
+    gravitational_stiffness: bool = True
+
     def __post_init__(self) -> None:
         mistakes = Mistakes()
         with mistakes.under("bogie"):
             check_fields(self)
+        with mistakes.under("bogie.gravitational_stiffness"):
+            as_switch(self.gravitational_stiffness)
         with mistakes.under("bogie.kind"):
             as_choice(self.kind, KINDS)
             mistakes.found.extend(self._misplaced())
+        mistakes.found.extend(self._incomplete())
         mistakes.report()
+
+    def _incomplete(self) -> list[Diagnostic]:
+        """Return what is wrong with values that only make sense together."""
+        found = []
+        for joint, damper in (("K_d1x", "C_1x"), ("K_d1y", "C_1y")):
+            if getattr(self, joint) is not None and getattr(self, damper) is None:
+                found.append(Diagnostic(key=f"bogie.{joint}", message=f"needs the damper: give {damper} too"))
+        own = [key for key in ROLL_KEYS if key not in ("K_2z", "C_2z")]
+        for key in own:
+            if (getattr(self, key) is None) != (self.I_b is None):
+                text = "is missing: roll of the frame (I_b) needs it" if self.I_b else "belongs to roll: give I_b too"
+                found.append(Diagnostic(key=f"bogie.{key}", message=text))
+        return found
 
     def _misplaced(self) -> list[Diagnostic]:
         """Return what is wrong with the motor's values: all are needed, or none is allowed."""
@@ -197,15 +332,112 @@ class Bogie:
         dict of str to float
             In the order of Table I.
         """
-        values = {key: getattr(self, field_name(key)) for key in PARAMETERS}
-        return {key: value for key, value in values.items() if value is not None}
+        return given_values(self)
+
+
+@named
+@documented
+@dataclass(frozen=True, kw_only=True)
+class CarBody:
+    """A car body on two bogies, which moves laterally, yaws and rolls.
+
+    Values are numbers in SI or texts with a unit, as those of `Bogie`.
+
+    Parameters
+    ----------
+    overturning : bool
+        Whether the weight of the rolled car body acts, a moment of -M_c g h_s per unit of its roll.
+    """
+
+    M_c: float = _carried(
+        r"M_\mathrm{c}", "t", "mass of the car body", hard=(1e-3, 1e18), usual=(5e3, 100e3), source="34.5"
+    )
+    J_c: float = _carried(
+        r"J_\mathrm{c}", "t·m²", "yaw inertia of the car body", hard=(1e-3, 1e18), usual=(50e3, 5e6), source="1 521"
+    )
+    I_c: float = _carried(
+        r"I_\mathrm{c}", "t·m²", "roll inertia of the car body", hard=(1e-3, 1e18), usual=(5e3, 300e3), source="124.304"
+    )
+    l_c: float | None = _carried(
+        r"l_\mathrm{c}",
+        "m",
+        "half the distance of the bogie centres; L/2 of the curve if not given",
+        hard=(1e-3, 100.0),
+        usual=(2, 15),
+        source="9.5",
+        optional=True,
+    )
+    h_s: float = _carried(
+        r"h_\mathrm{s}",
+        "m",
+        "centre of mass of the car body above the secondary springs",
+        hard=_HEIGHT,
+        usual=(0.0, 2.5),
+        source="0.852",
+    )
+    h_t: float = _carried(
+        r"h_\mathrm{t}",
+        "m",
+        "centre of mass of the car body above the secondary lateral dampers",
+        hard=_HEIGHT,
+        usual=(0.0, 2.5),
+        source="0.97",
+    )
+    K_2z: float = _carried(
+        r"K_{2z}",
+        "MN/m",
+        "vertical stiffness of the secondary suspension on one side of a bogie",
+        hard=(0.0, 1e18),
+        usual=(50e3, 5e6),
+        source="0.61",
+    )
+    C_2z: float = _carried(
+        r"C_{2z}",
+        "kN·s/m",
+        "vertical damping of the secondary suspension on one side of a bogie",
+        hard=(0.0, 1e12),
+        usual=(0, 500e3),
+        source="9.8",
+    )
+    overturning: bool = False
+
+    def __post_init__(self) -> None:
+        mistakes = Mistakes()
+        with mistakes.under("car_body"):
+            check_fields(self)
+        with mistakes.under("car_body.overturning"):
+            as_switch(self.overturning)
+        mistakes.report()
+
+    def parameters(self) -> dict[str, float]:
+        """Return the values in SI by key, without those that are None.
+
+        Returns
+        -------
+        dict of str to float
+        """
+        return given_values(self)
+
+
+def given_values(part: Bogie | CarBody) -> dict[str, float]:
+    """Return the values of a part in SI by key, without those that are not given, and the joints that are rigid."""
+    values = {key: getattr(part, field_name(key)) for key in table(type(part))}
+    return {key: value for key, value in values.items() if value is not None and not math.isinf(value)}
 
 
 NO_MOTOR = "belongs to the motors, and a trailer bogie has none: remove it, or choose kind: power"
-PARAMETERS = table(Bogie)
-MOTOR_KEYS: tuple[str, ...] = tuple(key for key, row in PARAMETERS.items() if row.motor)
+BOGIE, CAR_BODY = table(Bogie), table(CarBody)
+PARAMETERS = MappingProxyType({**BOGIE, **CAR_BODY})
+MOTOR_KEYS: tuple[str, ...] = tuple(key for key, row in BOGIE.items() if row.motor)
+ROLL_KEYS = ("I_b", "K_1z", "C_1z", "h_1", "h_2", "h_2t", "K_2z", "C_2z")
+ADDED = tuple(key for key, row in BOGIE.items() if row.optional and key != "C_s")  # to the bogie of Table I
+
+
+def bogie_keys(kind: str) -> tuple[str, ...]:
+    """Return the keys that a bogie of this kind may have, in the order of the table."""
+    return tuple(key for key in BOGIE if kind != "trailer" or key not in MOTOR_KEYS)
 
 
 def parameter_keys(kind: str) -> tuple[str, ...]:
-    """Return the keys that a bogie of this kind has, in the order of Table I."""
-    return tuple(key for key in PARAMETERS if kind != "trailer" or key not in MOTOR_KEYS)
+    """Return the keys that every bogie of this kind has, in the order of Table I."""
+    return tuple(key for key in bogie_keys(kind) if key not in ADDED)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import MISSING, dataclass, field, fields, replace
 from numbers import Real
@@ -14,6 +15,7 @@ from .quantities import Written, exact, format_number, format_quantity, parse_qu
 from .units import UnitError, kind_of, parse_unit, si_unit
 
 T = TypeVar("T")
+RIGID = math.inf
 LONGEST_TEXT = 1000
 MOST_BITS = 4000  # of an exact number: a double with a unit of any size has fewer
 Range = tuple[float, float]
@@ -45,6 +47,8 @@ class Parameter:
         Whether only a power bogie has it.
     optional : bool
         Whether it may be left out.
+    rigid : bool
+        Whether it is a stiffness that may be infinite: the word ``rigid`` stands for that.
     """
 
     key: str = ""
@@ -57,6 +61,7 @@ class Parameter:
     group: str = ""
     motor: bool = False
     optional: bool = False
+    rigid: bool = False
 
     @property
     def si(self) -> str:
@@ -68,14 +73,16 @@ class Parameter:
         """The value of the paper as it may be written in a file."""
         return f"{self.source} {self.unit.strip('-')}".strip()
 
-    def check(self, value: object) -> Written:
-        """Return a number or a text with a unit as an SI number inside the hard range.
+    def check(self, value: object) -> Any:
+        """Return a number or a text with a unit as an SI number inside the hard range, or infinity if it is rigid.
 
         Raises
         ------
         ProblemError
             If it is no number, has another dimension or lies outside.
         """
+        if self.rigid and _is_rigid(value):
+            return RIGID
         number = as_quantity(value, self.unit, self.si)
         low, high = map(exact, self.hard)
         if not low <= number.exact <= high:
@@ -198,6 +205,17 @@ def as_several(value: Any) -> list[Any]:
         return [value]
     entries: list[Any] = [value] if getattr(value, "ndim", 1) == 0 else list(value)
     return [entry.item() if getattr(entry, "shape", None) == () else entry for entry in entries]
+
+
+def _is_rigid(value: object) -> bool:
+    return value == RIGID or (isinstance(value, str) and value.strip() == "rigid")
+
+
+def as_switch(value: object) -> bool:
+    """Return `value` if it is true or false."""
+    if isinstance(value, bool):
+        return value
+    raise ProblemError(f"{_shown(value)} is neither true nor false")
 
 
 def as_choice(value: object, choices: Collection[str]) -> str:

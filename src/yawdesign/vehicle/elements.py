@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
-from yawdesign.vehicle.polynomials import ONE, Number, Polynomial, add, multiply, plus, times
+from yawdesign.vehicle.polynomials import ONE, Number, Polynomial, add, multiply, plus, times, trim
 
 Coefficients = Mapping[str, Any]
 
@@ -112,7 +112,9 @@ class Link:
     pieces : int
         How many equal ones the link stands for.
     varied : bool
-        Whether it is the yaw damper: its damping is C_s, in whose powers the motions are written.
+        Whether it is a yaw damper: its damping is C_s, in whose powers the motions are written.
+    share : number
+        What C_s is multiplied by in it [-].
     ends : mapping coordinate -> int, optional
         How many ends of pairs a coordinate feels at once where half sums and differences stand for both ends.
     """
@@ -125,6 +127,7 @@ class Link:
     name: str = ""
     pieces: int = 1
     varied: bool = False
+    share: Number = 1
     ends: Mapping[str, int] = field(default_factory=dict)
 
     @property
@@ -215,6 +218,11 @@ class WheelRailContact:
     alignment, cross_level : str, optional
         Inputs of the track under the wheelset: lateral position of the track's centre line y_a [m] and cross-level
         angle theta [rad].
+    gravitates : bool
+        Whether the gravitational stiffness is there: the terms with W, but for that of theta.
+    spinning : number
+        Moment of inertia about the axle [kg m^2]. As the wheelset runs, shifted by y, it rolls by lambda y / b, and the
+        spin v / r turns a roll velocity into a yaw moment, a yaw velocity into a lateral force.
     """
 
     y: str
@@ -228,15 +236,21 @@ class WheelRailContact:
     v: Number
     alignment: str = "alignment"
     cross_level: str = "cross_level"
+    gravitates: bool = True
+    spinning: Number = 0
 
     def entries(self) -> dict[tuple[str, str], Polynomial]:
         """Return the polynomial entries (row, column) of the contact."""
-        gravity = self.W * self.conicity
+        gravity = self.W * self.conicity if self.gravitates else 0
+        spin = times(self.spinning, self.v * self.conicity / (self.r * self.b))
         return {
-            (self.y, self.y): (gravity / self.b, 2 * self.f_11 / self.v),
-            (self.y, self.phi): (-2 * self.f_11,),
-            (self.phi, self.y): (2 * self.f_22 * self.b * self.conicity / self.r,),
-            (self.phi, self.phi): (-gravity * self.b, 2 * self.f_22 * self.b * self.b / self.v),
+            (self.y, self.y): (gravity / self.b if self.gravitates else 0, 2 * self.f_11 / self.v),
+            (self.y, self.phi): trim((-2 * self.f_11, times(-1, spin)), _is_absent),
+            (self.phi, self.y): trim((2 * self.f_22 * self.b * self.conicity / self.r, spin), _is_absent),
+            (self.phi, self.phi): (
+                -gravity * self.b if self.gravitates else 0,
+                2 * self.f_22 * self.b * self.b / self.v,
+            ),
         }
 
     def inputs(self) -> dict[tuple[str, str], Any]:
@@ -247,6 +261,10 @@ class WheelRailContact:
             (self.y, self.cross_level): self.W,
             (self.phi, self.alignment): entries[self.phi, self.y][0],
         }
+
+
+def _is_absent(x: Any) -> bool:
+    return type(x) is int and x == 0
 
 
 Single = Link | Mass | WheelRailContact
@@ -262,17 +280,19 @@ class Pair:
         The front end's elements, pairs among them. In the rear ones the `Link.lever` has the opposite sign.
     own : set of str
         Coordinates that each end has for itself: ``y_w`` becomes ``y_w1`` and ``y_w2``, or, folded, half the sum
-        ``y_w+`` and half the difference ``y_w-``. So do the track inputs: ``alignment_1``, ``alignment_2``, and the
-        coordinates ``y_w1``, ``y_w2`` of a pair inside: ``y_w11`` ... ``y_w22``, the outer end last.
+        ``y_w+`` and half the difference ``y_w-``. So do the track inputs: ``alignment_1``, ``alignment_2``, and what
+        belongs to the ends of a pair inside: ``y_w11``, ``y_w12``, ``y_w21``, ``y_w22``, the outer end first.
+    rear : tuple, optional
+        The rear end's elements, the same but for their numbers, where these differ. Such a pair is not folded.
     """
 
     elements: "tuple[Element, ...]"
     own: frozenset[str] = frozenset()
+    rear: "tuple[Element, ...]" = ()
 
     def both_ends(self) -> list[Single]:
         """Return front and rear elements, in the coordinates of each end."""
-        inside = physical(self.elements)
-        return [self._rename(_at_end(e, sign), end) for end, sign in (("1", 1), ("2", -1)) for e in inside]
+        return self._apart(physical(self.elements), physical(self.rear or self.elements))
 
     def folded(self) -> list[Single]:
         """Return the elements acting on half the sums and half the differences of the two ends.
@@ -281,10 +301,16 @@ class Pair:
         coupled by nothing but the bodies that both ends share, and the coupling graph of a bogie becomes a tree.
         """
         inside = folded(self.elements)
+        if self.rear:
+            return self._apart(inside, folded(self.rear))
         return [self._rename(half, sign) for sign in "+-" for e in inside if (half := self._fold(e, sign))]
 
+    def _apart(self, front: "Iterable[Single]", rear: "Iterable[Single]") -> list[Single]:
+        ends = (("1", 1, front), ("2", -1, rear))
+        return [self._rename(_at_end(e, sign), end) for end, sign, inside in ends for e in inside]
+
     def _owns(self, x: str) -> bool:
-        return x.rstrip("12+-") in self.own
+        return parted(x)[0] in self.own
 
     def _fold(self, element: Single, sign: str) -> Single | None:
         if not isinstance(element, Link):
@@ -301,22 +327,29 @@ class Pair:
 
     def _rename(self, element: Single, suffix: str) -> Single:
         def new(x: str) -> str:
-            return x + suffix if self._owns(x) else x
+            return _numbered(x, suffix) if self._owns(x) else x
 
         match element:
             case Mass():
                 return replace(element, coordinate=new(element.coordinate))
             case WheelRailContact():
-                track: Any = {x: _numbered(getattr(element, x), suffix) for x in ("alignment", "cross_level")}
+                track: Any = {x: _numbered(getattr(element, x), suffix, "_") for x in ("alignment", "cross_level")}
                 return replace(element, y=new(element.y), phi=new(element.phi), **track)
         parts: Any = {part: {new(x): g for x, g in getattr(element, part).items()} for part in ("gap", "lever", "ends")}
         acts_on = None if element.acts_on is None else frozenset(map(new, element.acts_on))
         return replace(element, acts_on=acts_on, name=element.name and _numbered(element.name, suffix, " "), **parts)
 
 
-def _numbered(name: str, suffix: str, blank: str = "_") -> str:
-    """Return a name with the sign of an end behind it, and behind that of an end inside."""
-    return name + suffix if name[-1] in "12+-" else f"{name}{blank}{suffix}"
+def parted(name: str) -> tuple[str, str]:
+    """Return a name without its ends, and these."""
+    stem = name.rstrip("12+-")
+    return stem, name[len(stem) :]
+
+
+def _numbered(name: str, suffix: str, blank: str = "") -> str:
+    """Return a name with an end behind it, and behind that the end inside."""
+    stem, inside = parted(name)
+    return stem + suffix + inside if inside else f"{name}{blank}{suffix}"
 
 
 def _at_end(element: Single, sign: int) -> Single:

@@ -12,11 +12,14 @@ from typing import Any
 
 from yawdesign.vehicle.assembly import polynomial_matrix
 from yawdesign.vehicle.determinant import Determinant, Node
-from yawdesign.vehicle.elements import Link, Mass, Maxwell, Single, Spring
+from yawdesign.vehicle.elements import Dashpot, Link, Mass, Maxwell, Single, Spring, parted
 from yawdesign.vehicle.polynomials import ONE, ZERO, Number, Polynomial, add, multiply, scale
+
+Law = tuple[Polynomial, Polynomial]
 
 COUPLED = "coupled motion"
 TOGETHER = {"+": "together", "-": "against each other"}
+BOGIES = {"+": "both bogies alike", "-": "one bogie against the other", "1": "leading bogie", "2": "trailing bogie"}
 
 
 @dataclass(frozen=True)
@@ -66,7 +69,7 @@ def motions(elements: Sequence[Single]) -> tuple[Motion, ...]:
     ValueError
         If a yaw damper has no name, or is not one damper in series with a spring.
     """
-    dampers = {e.own_name: _softness(e) for e in elements if isinstance(e, Link) and e.varied}
+    dampers = {e.own_name: _law(e) for e in elements if isinstance(e, Link) and e.varied}
     matrix = Determinant(_without_laws(polynomial_matrix(_with_unit_laws(elements)), dampers))
     masses = {e.coordinate: e for e in elements if isinstance(e, Mass)}
     found = []
@@ -79,12 +82,14 @@ def motions(elements: Sequence[Single]) -> tuple[Motion, ...]:
     return tuple(sorted(found, key=lambda motion: not motion.varied))
 
 
-def _softness(damper: Link) -> Any:
-    """Return 1/K of a yaw damper."""
+def _law(damper: Link) -> Law:
+    """Return share C_s s / (1 + share C_s s / K), of a yaw damper, as share s and share s / K, of which C_s is a factor."""
     match damper.laws:
         case (Maxwell(K=K),):
-            return 1 / K
-    raise ValueError(f"{damper.name} must be one damper in series with a spring: its damping is C_s")
+            return (0, damper.share), (0, damper.share / K)
+        case (Dashpot(),):
+            return (0, damper.share), ZERO
+    raise ValueError(f"{damper.name} must be one damper, in series with a spring or not: its damping is C_s")
 
 
 def _with_unit_laws(elements: Iterable[Single]) -> list[Single]:
@@ -97,15 +102,15 @@ def _without_laws(entries: dict[Any, Polynomial], dampers: Iterable[str]) -> dic
     return {place: p for place, p in entries.items() if place not in held}
 
 
-def _coefficients(matrix: Determinant, piece: frozenset[Node], dampers: dict[str, Any]) -> tuple[Polynomial, ...]:
-    """Return the polynomial of a piece by powers of C_s; `dampers` holds 1/K of each yaw damper in it."""
+def _coefficients(matrix: Determinant, piece: frozenset[Node], dampers: dict[str, Law]) -> tuple[Polynomial, ...]:
+    """Return the polynomial of a piece by powers of C_s, given the laws of the yaw dampers in it."""
     powers: list[Polynomial] = [ZERO] * (len(dampers) + 1)
     for count in range(len(dampers) + 1):
         for locked in combinations(dampers, count):
             free = [name for name in dampers if name not in locked]
             minor = _minor(matrix, piece - set(free), locked)
-            # Every locked damper brings C_s s, every free one 1 + C_s s / K.
-            laws = [(ZERO, (0, 1))] * len(locked) + [(ONE, (0, dampers[name])) for name in free]
+            # Every locked damper brings its numerator, every free one its denominator.
+            laws = [(ZERO, dampers[name][0]) for name in locked] + [(ONE, dampers[name][1]) for name in free]
             for power, factor in enumerate(_product(laws)):
                 powers[power] = add(powers[power], multiply(factor, minor))
     return tuple(powers)
@@ -129,8 +134,9 @@ def _product(laws: Sequence[tuple[Polynomial, Polynomial]]) -> list[Polynomial]:
 
 def _name(masses: Sequence[Mass]) -> str:
     """Return what moves in a motion that no yaw damper reaches."""
-    alone = {(mass.alone, mass.coordinate[-1]) for mass in masses}
-    subject, end = alone.pop()
-    if subject and not alone:
-        return f"{subject} {TOGETHER[end]}" if end in TOGETHER else subject
-    return ", ".join(mass.coordinate for mass in masses)
+    alone = {(mass.alone, parted(mass.coordinate)[1]) for mass in masses}
+    subject, ends = alone.pop()
+    if not subject or alone:
+        return ", ".join(mass.coordinate for mass in masses)
+    inner, outer = TOGETHER.get(ends[-1:], ""), BOGIES.get(ends[:-1], "")
+    return ", ".join(filter(None, (f"{subject} {inner}".strip(), outer)))

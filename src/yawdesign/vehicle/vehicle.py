@@ -7,9 +7,9 @@ from typing import Any, Self
 
 from yawdesign.problem import Problem
 from yawdesign.problem.conditions import Condition, conditions
-from yawdesign.problem.parameters import parameter_keys
+from yawdesign.problem.parameters import CAR_BODY, parameter_keys
 from yawdesign.problem.table import key_of
-from yawdesign.vehicle.catalogue import CATALOGUE, Parameters
+from yawdesign.vehicle.catalogue import CATALOGUE, OVERTURNING, Parameters, elements
 from yawdesign.vehicle.elements import Element, Link, Mass, Single, folded, physical
 from yawdesign.vehicle.motions import Motion, motions
 from yawdesign.vehicle.polynomials import Number, Polynomial, product, scale_variable
@@ -26,24 +26,42 @@ class Model:
         With or without traction motors.
     equations : {"reciprocal", "as-printed"}
         With the motors' yaw reaction on the frame, or without it as eqs (1) and (7) are printed.
+    parameters : tuple of str, optional
+        Names of the numbers that its vehicles have, C_s and v among them; they say which parts there are, see
+        `yawdesign.vehicle.catalogue`. Without them those of the paper's bogie, under a car body that stands still.
+    flags : frozenset of str, optional
+        What numbers do not say: ``"overturning"``, ``"no gravitational stiffness"``.
     """
 
     kind: str = "power"
     equations: str = "reciprocal"
+    parameters: tuple[str, ...] = ()
+    flags: frozenset[str] = frozenset()
+
+    def __post_init__(self) -> None:
+        if not self.parameters:
+            object.__setattr__(self, "parameters", (*parameter_keys(self.kind), "v"))
 
     @classmethod
     def of(cls, problem: Problem) -> Self:
         """Return the model of a problem."""
-        return cls(problem.bogie.kind, problem.equations)
+        return cls(problem.bogie.kind, problem.equations, (*problem.keys, "v"), problem.flags)
 
     def at(self, p: Parameters, **more: Number) -> "Vehicle":
         """Return the vehicle with given numbers: symbols of Table I in SI units, ``v`` [m/s] and maybe ``C_s``."""
         return Vehicle(self, {**p, **more})
 
     @property
-    def parameters(self) -> tuple[str, ...]:
-        """Names of the numbers that a vehicle has, C_s and v among them."""
-        return (*parameter_keys(self.kind), "v")
+    def has_car_body(self) -> bool:
+        """Whether a car body on two bogies moves; otherwise it stands still on one."""
+        return "M_c" in self.parameters
+
+    @property
+    def bogie(self) -> "Model":
+        """The model of one bogie under a car body that stands still, with the parameters that it shares with this."""
+        own = frozenset(CAR_BODY) - (frozenset(("K_2z", "C_2z")) if "I_b" in self.parameters else frozenset())
+        names = tuple(name for name in self.parameters if name not in own and "." not in name)
+        return Model(self.kind, self.equations, names, self.flags - {OVERTURNING})
 
     @property
     def motions(self) -> tuple[Motion, ...]:
@@ -98,7 +116,8 @@ def _sources(model: Model) -> dict[str, frozenset[str]]:
 @lru_cache
 def _joints(model: Model) -> dict[str, str]:
     laws: list[Any] = [law for link in _traced(model).physical if isinstance(link, Link) for law in link.maxwell]
-    return {damping: stiffness for law in laws for damping in law.c for stiffness in law.K}
+    # A primary damper brings its arm, which is in both of its numbers.
+    return {damping: stiffness for law in laws for damping in law.c - law.K for stiffness in law.K - law.c}
 
 
 @lru_cache
@@ -138,7 +157,7 @@ class Vehicle:
     @classmethod
     def of(cls, problem: Problem) -> tuple["Vehicle", ...]:
         """Return the vehicle of a problem under each of its conditions."""
-        p = problem.bogie.parameters()
+        p = problem.parameters()
         return tuple(Model.of(problem).at(condition.applied(p)) for condition in conditions(problem))
 
     def under(self, condition: Condition) -> "Vehicle":
@@ -166,7 +185,7 @@ class Vehicle:
     @cached_property
     def elements(self) -> tuple[Element, ...]:
         """What it is made of."""
-        return tuple(CATALOGUE[self.model.kind](self.p, self.model.equations))
+        return tuple(elements(self.model.kind, self.model.equations, self.model.flags, self.p))
 
     @property
     def physical(self) -> list[Single]:
