@@ -154,7 +154,8 @@ class Problem:
         ProblemError
             If a name is not known or a value is not accepted.
         """
-        mistakes, parts = Mistakes(), {name: {} for name in ("own", *_PARTS)}
+        mistakes = Mistakes()
+        parts: dict[str, dict[str, Any]] = {name: {} for name in ("own", *_PARTS)}
         for name, value in changes.items():
             with mistakes.under(key_of(name)):
                 parts[self._part_of(key_of(name))][field_name(key_of(name))] = value

@@ -89,7 +89,7 @@ class Parameter:
             raise ProblemError(f"{_shown(value)} is outside {self.range_text(self.hard, _unit_of(value))}")
         return number
 
-    def accept(self, value: object, *, doubtful: bool = False) -> Written:
+    def accept(self, value: object, *, doubtful: bool = False) -> Any:
         """Return a value as `check` does; warn where a bare number may have been meant in km/h.
 
         Numbers in Python are SI: only a text without a unit and what is above the usual range are doubted, and what the
@@ -145,7 +145,7 @@ def table(cls: type) -> Mapping[str, Parameter]:
     return MappingProxyType({key: replace(row, key=key) for key, row in rows.items()})
 
 
-def check_end(value: object, row: Parameter, low: Written | None) -> Written:
+def check_end(value: object, row: Parameter, low: Written | None) -> Any:
     """Return the upper end of a range in SI, which must lie above the lower end where that is known."""
     high = row.check(value)
     if low is None or low.exact < high.exact:

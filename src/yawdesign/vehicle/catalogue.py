@@ -8,6 +8,7 @@ has no stiffness among them is mounted rigidly.
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
+from yawdesign.problem.cases import BOGIES, SHARE
 from yawdesign.vehicle.elements import Dashpot, Element, Law, Link, Mass, Maxwell, Pair, Spring, WheelRailContact
 from yawdesign.vehicle.polynomials import times
 
@@ -15,8 +16,6 @@ Parameters = Mapping[str, Any]  # of Number
 
 OVERTURNING = "overturning"  # the weight of the rolled car body acts
 NO_GRAVITATIONAL_STIFFNESS = "no gravitational stiffness"
-BOGIES = ("leading", "trailing")  # whose own values are called leading.C_s, ...
-SHARE = "C_s share"  # of a bogie's own yaw dampers, what C_s is multiplied by
 
 
 def elements(kind: str, equations: str, flags: Collection[str], p: Parameters) -> list[Element]:
@@ -93,9 +92,18 @@ def trailer_bogie(p: Parameters, equations: str = "reciprocal", flags: Collectio
     arm_2, arm_1 = p["b_2"] * p["b_2"], p["b_1"] * p["b_1"]
     body = "M_c" in p  # what stands between frame and ground otherwise stands between frame and car body
     rolling, yawing = ({"th_c": -1} if body else {}), ({"psi_c": -1} if body else {})
-    values = (p[name] for name in ("W", "lambda", "b", "r", "f_11", "f_22", "v"))
-    gravitates = NO_GRAVITATIONAL_STIFFNESS not in flags
-    contact = WheelRailContact("y_w", "phi_w", *values, gravitates=gravitates, spinning=p.get("J_wy", 0))
+    contact = WheelRailContact(
+        *("y_w", "phi_w"),
+        W=p["W"],
+        conicity=p["lambda"],
+        b=p["b"],
+        r=p["r"],
+        f_11=p["f_11"],
+        f_22=p["f_22"],
+        v=p["v"],
+        gravitates=NO_GRAVITATIONAL_STIFFNESS not in flags,
+        spinning=p.get("J_wy", 0),
+    )
     wheelset = (
         Mass("y_w", p["M_w"], body="wheelset", name="wheelset hunting", creeping="wheelset creep"),
         Mass("phi_w", p["J_w"], unit="rad", body="wheelset", name="wheelset hunting", creeping="wheelset creep"),

@@ -83,7 +83,7 @@ def motions(elements: Sequence[Single]) -> tuple[Motion, ...]:
 
 
 def _law(damper: Link) -> Law:
-    """Return share C_s s / (1 + share C_s s / K), of a yaw damper, as share s and share s / K, of which C_s is a factor."""
+    """Return what C_s multiplies in the law of a yaw damper: share s in its numerator, share s / K in 1 + C_s ..."""
     match damper.laws:
         case (Maxwell(K=K),):
             return (0, damper.share), (0, damper.share / K)

@@ -1,11 +1,12 @@
 """The model: which equations; and the vehicle: a model at given numbers, which assembles itself once."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any, Self
 
 from yawdesign.problem import Problem
+from yawdesign.problem.cases import Case
 from yawdesign.problem.conditions import Condition, conditions
 from yawdesign.problem.parameters import CAR_BODY, parameter_keys
 from yawdesign.problem.table import key_of
@@ -163,6 +164,18 @@ class Vehicle:
     def under(self, condition: Condition) -> "Vehicle":
         """Return the vehicle under a condition."""
         return Vehicle(self.model, condition.applied(self.p))
+
+    def with_fault(self, case: Case) -> "Vehicle":
+        """Return the vehicle with a fault, maybe of one of its bogies, which then have numbers of their own."""
+        changed = case.applied(self.p)
+        own = [name for name in changed if name not in self.p and name not in self.model.parameters]
+        return replace(self.model, parameters=(*self.model.parameters, *own)).at(changed)
+
+    @property
+    def bogie(self) -> "Vehicle":
+        """One bogie of it under a car body that stands still."""
+        model = self.model.bogie
+        return model.at({name: x for name, x in self.p.items() if name in model.parameters})
 
     def replace(self, **changes: Number) -> "Vehicle":
         """Return the vehicle with other numbers."""
