@@ -1,6 +1,6 @@
-"""Whether the bogie of a problem is stable, and by what margin."""
+"""Whether the vehicle of a problem is stable, by what margin, and with which faults."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -18,9 +18,11 @@ from yawdesign.hunting.eigenvalues import (
 )
 from yawdesign.hunting.routh import count_unstable
 from yawdesign.problem import Problem, ProblemError
-from yawdesign.problem.conditions import conditions
+from yawdesign.problem.cases import Case
+from yawdesign.problem.conditions import Condition, conditions
 from yawdesign.problem.result import Result
-from yawdesign.vehicle.elements import Link
+from yawdesign.vehicle.elements import Link, parted
+from yawdesign.vehicle.motions import BOGIES
 from yawdesign.vehicle.polynomials import Polynomial
 from yawdesign.vehicle.vehicle import Vehicle
 
@@ -46,26 +48,55 @@ class Mode:
     decay_rate: float
 
 
+@dataclass(frozen=True)
+class CaseVerdict:
+    """Stability with a fault, under the condition in which it is worst.
+
+    Parameters
+    ----------
+    name : str
+        The fault, as the problem calls it.
+    stable : bool
+        All roots lie in the left half-plane, by their eigenvalues and by Routh's array, under every condition.
+    decay_rate, damping_ratio : float
+        Margins [1/s], [-] over the modes that some design variable can move.
+    worst_condition : mapping
+        The condition of the least decay rate: ``speed`` [m/s].
+    checked : bool
+        As in `Stability`.
+    """
+
+    name: str
+    stable: bool
+    decay_rate: float
+    damping_ratio: float
+    worst_condition: Mapping[str, float]
+    checked: bool
+
+
 @dataclass(frozen=True, repr=False)
 class Stability(Result):
-    """Stability of a bogie at one yaw damping and one speed, the worst of the problem's speeds.
+    """Stability of a vehicle at one yaw damping and one speed, the worst of the problem's speeds.
+
+    A vehicle is one bogie under a car body that stands still, or a car body on two bogies.
 
     Parameters
     ----------
     stable : bool
         All roots lie in the left half-plane, by their eigenvalues and by Routh's array.
     spectral_abscissa : float
-        Largest real part [1/s] of all modes of the 25-state model (15 states without motors).
+        Largest real part [1/s] of all modes: of the bogie's 25 states (15 without motors), or the 56 (36) of a vehicle
+        with a car body.
     decay_rate, damping_ratio : float
         Margins [1/s], [-] over the modes that some design variable can move.
     eigenvalues : tuple of complex
-        Of the 25-state model [1/s], least damped first.
+        All of them [1/s], least damped first.
     modes : tuple of Mode
         The same as frequencies and damping.
     fixed_modes : mapping name -> tuple of complex
         The roots [1/s] that no design variable moves, and that of the two yaw dampers working against each other.
     C_s, speed : float
-        Damping of the pair of yaw dampers [N s/m] and speed [m/s] to which this belongs.
+        Damping of the pair of yaw dampers of each bogie [N s/m] and speed [m/s] to which this belongs.
     unstable_roots : int
         Number of eigenvalues in the right half-plane.
     checked : bool
@@ -73,8 +104,10 @@ class Stability(Result):
         characteristic polynomial.
     worst_condition : mapping
         The condition under which this is so, of those of the problem: ``speed`` [m/s].
-    requirements, cases : tuple
-        What was required and reached, and the faults that were looked at: none.
+    cases : tuple of CaseVerdict
+        The same with each fault of the problem.
+    requirements : tuple
+        What was required and reached: none.
     """
 
     stable: bool
@@ -90,7 +123,7 @@ class Stability(Result):
     checked: bool
     worst_condition: Mapping[str, float] = field(default_factory=dict)
     requirements: tuple[Any, ...] = ()
-    cases: tuple[Any, ...] = ()
+    cases: tuple[CaseVerdict, ...] = ()
 
 
 def given_damping(problem: Problem) -> float:
@@ -101,7 +134,7 @@ def given_damping(problem: Problem) -> float:
 
 
 def stability(problem: Problem) -> Stability:
-    """Return the stability of a problem's bogie with the yaw damping written in it.
+    """Return the stability of a problem's vehicle with the yaw damping written in it.
 
     Parameters
     ----------
@@ -119,19 +152,47 @@ def stability(problem: Problem) -> Stability:
     >>> round(yd.stability(yd.table1(equations="as-printed")).spectral_abscissa, 8)
     -1.29853702
     """
-    return least_stable(problem)[1]
+    given_damping(problem)
+    variables = problem.design.variables
+    verdicts = [judged(case, Vehicle.of(problem), conditions(problem), variables) for case in problem.cases]
+    return replace(least_stable(problem)[1], cases=tuple(verdicts))
 
 
 def least_stable(problem: Problem) -> tuple[Vehicle, Stability]:
     """Return a problem's vehicle at the speed of the least decay rate, and its stability. As in `stability`."""
     given_damping(problem)
-    variables = problem.design.variables
-    found = [
-        (vehicle, replace(stability_at(vehicle, variables), worst_condition=condition.described))
-        for condition, vehicle in zip(conditions(problem), Vehicle.of(problem), strict=True)
-    ]
-    vehicle, worst = min(found, key=lambda pair: (pair[1].stable, pair[1].decay_rate))
-    return vehicle, replace(worst, checked=all(result.checked for _, result in found))
+    vehicles = Vehicle.of(problem)
+    worst, place = _worst(vehicles, conditions(problem), problem.design.variables)
+    return vehicles[place], worst
+
+
+def judged(
+    case: Case, vehicles: Sequence[Vehicle], conditions: Sequence[Condition], variables: Collection[str]
+) -> CaseVerdict:
+    """Return the stability of a vehicle with a fault.
+
+    Parameters
+    ----------
+    case : Case
+        The fault.
+    vehicles, conditions : sequences of Vehicle, Condition
+        The vehicle under each condition.
+    variables : collection of str
+        Design variables; they decide which decoupled modes count in the margins.
+    """
+    worst, _ = _worst([vehicle.with_fault(case) for vehicle in vehicles], conditions, variables)
+    margins = {"decay_rate": worst.decay_rate, "damping_ratio": worst.damping_ratio}
+    return CaseVerdict(case.name, worst.stable, **margins, worst_condition=worst.worst_condition, checked=worst.checked)
+
+
+def _worst(
+    vehicles: Sequence[Vehicle], conditions: Sequence[Condition], variables: Collection[str]
+) -> tuple[Stability, int]:
+    """Return the stability under the condition of the least decay rate, and the number of that."""
+    found = [stability_at(vehicle, variables) for vehicle in vehicles]
+    place = min(range(len(found)), key=lambda k: (found[k].stable, found[k].decay_rate))
+    checked = all(result.checked for result in found)
+    return replace(found[place], worst_condition=conditions[place].described, checked=checked), place
 
 
 def stability_at(vehicle: Vehicle, variables: Collection[str] = ()) -> Stability:
@@ -184,5 +245,6 @@ def modes(s: Complex) -> tuple[Mode, ...]:
 def _between_pieces(vehicle: Vehicle) -> dict[str, tuple[complex, ...]]:
     """Return the roots -K/c of equal dampers that work against each other: one link stands for them in the model."""
     links = [e for e in vehicle.physical if isinstance(e, Link) and e.pieces > 1]
-    laws = [(link.name, law) for link in links for law in link.maxwell if law.c]
-    return {f"{name}s against each other": (complex(-law.K / law.c),) for name, law in laws}
+    laws = [(*parted(link.name), law) for link in links for law in link.maxwell if law.c]
+    names = {end: f", {BOGIES[end]}" if end else "" for _, end, _ in laws}
+    return {f"{name.strip()}s against each other{names[end]}": (complex(-law.K / law.c),) for name, end, law in laws}

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from yawdesign.damper.forward import ForwardDesign
     from yawdesign.damper.optimise import Optimum
     from yawdesign.exports.write import Export
-    from yawdesign.hunting.verdict import Mode, Stability
+    from yawdesign.hunting.verdict import CaseVerdict, Mode, Stability
 
 DAMPING = "kN·s/m"
 SHOWN = 10  # sensitivities
@@ -81,7 +81,18 @@ def stability_tables(result: "Stability") -> RenderableType:
             ("checked", verified(result.checked)),
         ],
     )
-    return Group(Text("The bogie is ").append_text(verdict).append("."), summary, _modes(result.modes))
+    first = Text("The vehicle is ").append_text(verdict).append(".")
+    return Group(first, summary, *case_tables(result.cases), _modes(result.modes))
+
+
+def case_tables(cases: "Iterable[CaseVerdict]") -> list[Table]:
+    """Return the table of what happens with each fault."""
+    table = titled("Faults", "case", "stable", "decay rate [1/s]", "damping ratio [%]", "at")
+    for case in cases:
+        stable = ("yes" if case.stable else "NO") if case.checked else "not verified"
+        at = speed(case.worst_condition["speed"])
+        table.add_row(case.name, stable, f"{case.decay_rate:.4g}", f"{100 * case.damping_ratio:.2f}", at)
+    return [table] if table.row_count else []
 
 
 def design_tables(result: "ForwardDesign") -> RenderableType:

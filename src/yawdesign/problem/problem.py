@@ -8,6 +8,7 @@ from numbers import Real
 from typing import Any, Literal, Self, get_args
 
 from .arguments import named
+from .cases import Case
 from .diagnostics import Mistakes, ProblemError, unknown_key
 from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, PARAMETERS, Bogie, CarBody, bogie_keys
 from .quantities import Written, exact
@@ -34,6 +35,8 @@ class Problem:
         Whether the motors' yaw reaction acts on the frame, or is left out as in the paper's equations.
     curve : Curve, optional
         The tightest curve; without it the damping has no upper limit.
+    cases : tuple of Case
+        Faults that must be survived.
     design : Design
         What may be changed, and what is to be best.
     car_body : CarBody, optional
@@ -47,6 +50,7 @@ class Problem:
     equations: Equations = "reciprocal"
     car_body: CarBody | None = None
     curve: Curve | None = None
+    cases: tuple[Case, ...] = ()
     design: Design = field(default_factory=Design)
     title: str = ""
 
