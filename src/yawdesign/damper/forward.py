@@ -1,12 +1,13 @@
 """Forward design of the yaw damper: stable intervals, curving limit, golden section (eqs (11) to (15))."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from yawdesign.damper.curving import curving_limit, rotational_resistance
 from yawdesign.damper.decision import decide
+from yawdesign.damper.single_bogie import CONICITIES, SingleBogie, partings
 from yawdesign.damper.status import Status
 from yawdesign.hunting.boundary import boundary, boundary_slope, parameter_names
 from yawdesign.hunting.critical_damping import CriticalDamping, CriticalValue, Interval, critical_damping
@@ -63,6 +64,8 @@ class ForwardDesign(Result):
         The load that stands for Q in eq. (13): axle or wheel.
     checked : bool
         Whether the stable intervals were confirmed by two ways of counting roots.
+    single_bogie : SingleBogie or None
+        For a vehicle with a car body: what one of its bogies alone would have answered.
     """
 
     critical: tuple[Critical, ...]
@@ -77,6 +80,7 @@ class ForwardDesign(Result):
     sensitivity: Mapping[str, float]
     load: str | None
     checked: bool
+    single_bogie: SingleBogie | None = None
 
 
 def design(problem: Problem) -> ForwardDesign:
@@ -98,7 +102,7 @@ def design(problem: Problem) -> ForwardDesign:
 
 
 def forward_design(vehicles: Sequence[Vehicle], curve: Curve | None) -> ForwardDesign:
-    """Return the forward design of a vehicle.
+    """Return the forward design of a vehicle; with a car body, what a single bogie would have answered stands in it.
 
     Parameters
     ----------
@@ -107,6 +111,25 @@ def forward_design(vehicles: Sequence[Vehicle], curve: Curve | None) -> ForwardD
     curve : Curve or None
         What limits C_s.
     """
+    found = _forward_design(vehicles, curve)
+    if not vehicles[0].model.has_car_body:
+        return found
+    alone = _forward_design([vehicle.bogie for vehicle in vehicles], curve)
+    fastest = max(vehicles, key=lambda vehicle: float(vehicle.v))
+    beside = SingleBogie(
+        C_sl=alone.C_sl,
+        C_s=alone.C_s,
+        stable_intervals=alone.stable_intervals,
+        status=alone.status,
+        stable=None if alone.C_s is None else _is_stable(vehicles, alone.C_s),
+        partings=partings(fastest),
+        searched=CONICITIES,
+        speed=float(fastest.v),
+    )
+    return replace(found, single_bogie=beside)
+
+
+def _forward_design(vehicles: Sequence[Vehicle], curve: Curve | None) -> ForwardDesign:
     found = [critical_damping(vehicle) for vehicle in vehicles]
     crossings = [(np.array([[x.C_s for x in sets.critical]]), np.array([sets.unstable_roots])) for sets in found]
     upper = None if curve is None else min(float(curving_limit(vehicle.p, curve)) for vehicle in vehicles)

@@ -14,6 +14,7 @@ from yawdesign.problem import PARAMETERS, format_quantity
 if TYPE_CHECKING:
     from yawdesign.damper.forward import ForwardDesign
     from yawdesign.damper.optimise import Optimum
+    from yawdesign.damper.single_bogie import SingleBogie
     from yawdesign.exports.write import Export
     from yawdesign.hunting.verdict import CaseVerdict, Mode, Stability
 
@@ -97,7 +98,27 @@ def case_tables(cases: "Iterable[CaseVerdict]") -> list[Table]:
 
 def design_tables(result: "ForwardDesign") -> RenderableType:
     """Return the tables of a `ForwardDesign`."""
-    return Group(_design_facts(result), *_critical(result), *_sensitivities(result))
+    beside = [] if result.single_bogie is None else [_beside(result, result.single_bogie)]
+    return Group(_design_facts(result), *beside, *_critical(result), *_sensitivities(result))
+
+
+def _beside(result: "ForwardDesign", alone: "SingleBogie") -> RenderableType:
+    """Return the answer beside that of a single bogie, and where they part."""
+    table = titled("With the car body, and one bogie under a car body that stands still", "", "vehicle", "single bogie")
+    intervals = ("\n".join(_interval(*i) for i in x.stable_intervals) or "none" for x in (result, alone))
+    table.add_row("stable for C_s in", *intervals)
+    table.add_row("C_sl", damping(result.C_sl), damping(alone.C_sl))
+    table.add_row("C_s, golden section", damping(result.C_s), damping(alone.C_s))
+    stable = {None: "-", True: "yes", False: "NO"}
+    table.add_row("is that C_s stable under the car body", "yes" if result.stable else "-", stable[alone.stable])
+    low, high = alone.searched
+    lines = [
+        f"creep x {x.creep_factor:g}: "
+        + ("nowhere" if x.conicity is None else f"below conicity {x.conicity:.3g}" + " or more" * (x.conicity >= high))
+        for x in alone.partings
+    ]
+    where = f"The vehicle needs more than 1.1 times the damping of the single bogie ({speed(alone.speed)}, conicity "
+    return Group(table, Text(f"{where}{low:g} ... {high:g}): {'; '.join(lines)}."))
 
 
 def _interval(low: float, high: float) -> str:

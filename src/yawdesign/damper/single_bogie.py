@@ -1,0 +1,114 @@
+"""What one bogie under a car body that stands still would have answered, and where a vehicle's answer parts from it.
+
+A single bogie knows nothing of the car body's sway and yaw, which at low conicity or reduced creep take the bogies with
+them. So its answer is compared over conicity and creep, for the numbers of this vehicle.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from yawdesign.hunting.arrays import Bools, Float
+from yawdesign.hunting.many.critical_values import critical_field
+from yawdesign.hunting.many.parameter_sets import ParameterSets
+from yawdesign.problem.conditions import CREEP
+from yawdesign.vehicle.vehicle import Vehicle
+
+CREEP_FACTORS = (1.0, 0.7, 0.5)
+CONICITIES = (0.02, 0.5)
+POINTS = 25  # in that range at first; then as many between two of them
+APART = 1.1  # times the single bogie's damping: with more they part
+
+
+@dataclass(frozen=True)
+class Parting:
+    """Up to which conicity a vehicle needs more yaw damping than a single bogie, at a creep factor.
+
+    Parameters
+    ----------
+    creep_factor : float
+        What f_11 and f_22 are multiplied by [-].
+    conicity : float or None
+        The largest at which the damping above which the vehicle is stable is more than 1.1 times that of the single
+        bogie [-]; None if there is none in the range.
+    """
+
+    creep_factor: float
+    conicity: float | None
+
+
+@dataclass(frozen=True)
+class SingleBogie:
+    """The forward design of one bogie under a car body that stands still, beside that of the vehicle.
+
+    Parameters
+    ----------
+    C_sl, C_s : float or None
+        Lower end of its stable interval, and its design [N s/m].
+    stable_intervals : tuple of (low, high)
+        Where it would be stable [N s/m]; high is infinite where there is no limit.
+    status : str
+        What kind of answer its design is.
+    stable : bool or None
+        Whether its C_s is stable under the car body that moves; None if it has none.
+    partings : tuple of Parting
+        Up to which conicity the vehicle needs more damping, for some creep factors.
+    searched : tuple of float
+        Between which conicities they were compared [-].
+    speed : float
+        At which speed [m/s], the highest of the problem.
+    """
+
+    C_sl: float | None
+    C_s: float | None
+    stable_intervals: tuple[tuple[float, float], ...]
+    status: str
+    stable: bool | None
+    partings: tuple[Parting, ...]
+    searched: tuple[float, float]
+    speed: float
+
+
+def partings(vehicle: Vehicle) -> tuple[Parting, ...]:
+    """Return up to which conicity a vehicle needs more yaw damping than one of its bogies alone.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+        With a car body; its own conicity is not looked at.
+    """
+    first = np.geomspace(*CONICITIES, POINTS)
+    apart = _apart(vehicle, np.tile(first, (len(CREEP_FACTORS), 1)))
+    finer = np.array([np.linspace(*_around(first, row), POINTS) for row in apart])
+    within = _apart(vehicle, finer)
+    return tuple(
+        Parting(factor, _last(v, inside) if row.any() else None)
+        for factor, row, v, inside in zip(CREEP_FACTORS, apart, finer, within, strict=True)
+    )
+
+
+def _around(conicity: Float, apart: Bools) -> tuple[float, float]:
+    """Return the last conicity at which they part, and the next one."""
+    last = int(np.flatnonzero(apart)[-1]) if apart.any() else 0
+    return float(conicity[last]), float(conicity[min(last + 1, len(conicity) - 1)])
+
+
+def _last(conicity: Float, apart: Bools) -> float:
+    return float(conicity[np.flatnonzero(apart)[-1]]) if apart.any() else float(conicity[0])
+
+
+def _apart(vehicle: Vehicle, conicity: Float) -> Bools:
+    """Return where a vehicle needs more damping, a row for each creep factor."""
+    factor = np.repeat(CREEP_FACTORS, conicity.shape[1])
+    changes = {"lambda": conicity.ravel(), **{key: vehicle.p[key] * factor for key in CREEP}}
+    needed, alone = (_needed(v, changes) for v in (vehicle, vehicle.bogie))
+    return np.asarray(needed > APART * alone).reshape(conicity.shape)
+
+
+def _needed(vehicle: Vehicle, changes: dict[str, Float]) -> Float:
+    """Return the damping above which a vehicle is stable [N s/m]: infinite if there is none, 0 if it needs none."""
+    size = len(changes["lambda"])
+    field = critical_field(ParameterSets(vehicle.model, {**vehicle.p, **changes}, size))
+    last = np.sum(~np.isnan(field.unstable_roots), axis=1) - 1
+    count = np.take_along_axis(field.unstable_roots, last[:, None], axis=1)[:, 0]
+    return np.where(count == 0, np.max(np.nan_to_num(field.critical), axis=1, initial=0.0), np.inf)
