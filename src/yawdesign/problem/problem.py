@@ -128,11 +128,11 @@ class Problem:
         return tuple(key for key in PARAMETERS if key in given or key == "C_s")
 
     @property
-    def flags(self) -> frozenset[str]:
+    def flags(self) -> tuple[str, ...]:
         """What the numbers do not say: ``"overturning"``, ``"no gravitational stiffness"``."""
         body = self.car_body is not None and self.car_body.overturning
         found = {"overturning": body, "no gravitational stiffness": not self.bogie.gravitational_stiffness}
-        return frozenset(name for name, true in found.items() if true)
+        return tuple(name for name, true in found.items() if true)
 
     @property
     def speeds(self) -> tuple[float, ...]:

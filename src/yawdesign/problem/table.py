@@ -208,7 +208,9 @@ def as_several(value: Any) -> list[Any]:
 
 
 def _is_rigid(value: object) -> bool:
-    return value == RIGID or (isinstance(value, str) and value.strip() == "rigid")
+    if isinstance(value, str):
+        return value.strip() == "rigid"
+    return isinstance(value, float) and value == RIGID
 
 
 def as_switch(value: object) -> bool:

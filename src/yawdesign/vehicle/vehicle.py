@@ -30,14 +30,14 @@ class Model:
     parameters : tuple of str, optional
         Names of the numbers that its vehicles have, C_s and v among them; they say which parts there are, see
         `yawdesign.vehicle.catalogue`. Without them those of the paper's bogie, under a car body that stands still.
-    flags : frozenset of str, optional
+    flags : tuple of str, optional
         What numbers do not say: ``"overturning"``, ``"no gravitational stiffness"``.
     """
 
     kind: str = "power"
     equations: str = "reciprocal"
     parameters: tuple[str, ...] = ()
-    flags: frozenset[str] = frozenset()
+    flags: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if not self.parameters:
@@ -62,7 +62,8 @@ class Model:
         """The model of one bogie under a car body that stands still, with the parameters that it shares with this."""
         own = frozenset(CAR_BODY) - (frozenset(("K_2z", "C_2z")) if "I_b" in self.parameters else frozenset())
         names = tuple(name for name in self.parameters if name not in own and "." not in name)
-        return Model(self.kind, self.equations, names, self.flags - {OVERTURNING})
+        flags = tuple(flag for flag in self.flags if flag != OVERTURNING)
+        return Model(self.kind, self.equations, names, flags)
 
     @property
     def motions(self) -> tuple[Motion, ...]:
