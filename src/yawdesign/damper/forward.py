@@ -12,6 +12,7 @@ from yawdesign.damper.status import Status
 from yawdesign.hunting.boundary import boundary, boundary_slope, parameter_names
 from yawdesign.hunting.critical_damping import CriticalDamping, CriticalValue, Interval, critical_damping
 from yawdesign.hunting.routh import TIME_UNIT, count_unstable
+from yawdesign.hunting.scope import scope
 from yawdesign.hunting.verdict import stability_at
 from yawdesign.problem import Curve, Problem
 from yawdesign.problem.result import Result
@@ -66,6 +67,8 @@ class ForwardDesign(Result):
         Whether the stable intervals were confirmed by two ways of counting roots.
     single_bogie : SingleBogie or None
         For a vehicle with a car body: what one of its bogies alone would have answered.
+    scope : str
+        What this answer does not hold; empty where a car body moves in it.
     """
 
     critical: tuple[Critical, ...]
@@ -81,6 +84,7 @@ class ForwardDesign(Result):
     load: str | None
     checked: bool
     single_bogie: SingleBogie | None = None
+    scope: str = ""
 
 
 def design(problem: Problem) -> ForwardDesign:
@@ -154,6 +158,7 @@ def _forward_design(vehicles: Sequence[Vehicle], curve: Curve | None) -> Forward
         sensitivity=_sensitivity(vehicles, found, C_sl),
         load=None if curve is None else curve.load,
         checked=checked,
+        scope=scope(vehicles),
     )
 
 

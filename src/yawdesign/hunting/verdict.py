@@ -17,6 +17,7 @@ from yawdesign.hunting.eigenvalues import (
     polished,
 )
 from yawdesign.hunting.routh import count_unstable
+from yawdesign.hunting.scope import scope
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.cases import Case
 from yawdesign.problem.conditions import Condition, conditions
@@ -108,6 +109,8 @@ class Stability(Result):
         The same with each fault of the problem.
     requirements : tuple
         What was required and reached: none.
+    scope : str
+        What this answer does not hold; empty where a car body moves in it.
     """
 
     stable: bool
@@ -124,6 +127,7 @@ class Stability(Result):
     worst_condition: Mapping[str, float] = field(default_factory=dict)
     requirements: tuple[Any, ...] = ()
     cases: tuple[CaseVerdict, ...] = ()
+    scope: str = ""
 
 
 def given_damping(problem: Problem) -> float:
@@ -153,9 +157,9 @@ def stability(problem: Problem) -> Stability:
     -1.29853702
     """
     given_damping(problem)
-    variables = problem.design.variables
-    verdicts = [judged(case, Vehicle.of(problem), conditions(problem), variables) for case in problem.cases]
-    return replace(least_stable(problem)[1], cases=tuple(verdicts))
+    vehicles, variables = Vehicle.of(problem), problem.design.variables
+    verdicts = [judged(case, vehicles, conditions(problem), variables) for case in problem.cases]
+    return replace(least_stable(problem)[1], cases=tuple(verdicts), scope=scope(vehicles))
 
 
 def least_stable(problem: Problem) -> tuple[Vehicle, Stability]:

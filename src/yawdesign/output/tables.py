@@ -2,6 +2,7 @@
 
 import io
 from collections.abc import Iterable
+from dataclasses import replace
 from math import pi
 from typing import TYPE_CHECKING, Any
 
@@ -83,7 +84,12 @@ def stability_tables(result: "Stability") -> RenderableType:
         ],
     )
     first = Text("The vehicle is ").append_text(verdict).append(".")
-    return Group(first, summary, *case_tables(result.cases), _modes(result.modes))
+    return Group(first, *scope_lines(result.scope), summary, *case_tables(result.cases), _modes(result.modes))
+
+
+def scope_lines(scope: str) -> list[Text]:
+    """Return what an answer does not hold, if there is anything."""
+    return [Text(scope, "bold yellow" if scope.startswith("DO NOT") else "")] if scope else []
 
 
 def case_tables(cases: "Iterable[CaseVerdict]") -> list[Table]:
@@ -99,7 +105,9 @@ def case_tables(cases: "Iterable[CaseVerdict]") -> list[Table]:
 def design_tables(result: "ForwardDesign") -> RenderableType:
     """Return the tables of a `ForwardDesign`."""
     beside = [] if result.single_bogie is None else [_beside(result, result.single_bogie)]
-    return Group(_design_facts(result), *beside, *_critical(result), *_sensitivities(result))
+    return Group(
+        *scope_lines(result.scope), _design_facts(result), *beside, *_critical(result), *_sensitivities(result)
+    )
 
 
 def _beside(result: "ForwardDesign", alone: "SingleBogie") -> RenderableType:
@@ -166,8 +174,8 @@ def optimum_tables(result: "Optimum") -> RenderableType:
     """Return the tables of an `Optimum`."""
     if result.margin is None:
         return Text(f"{result.status}: {result.message}")
-    own = [_optimum_facts(result), _bounds(result), _modes(result.modes), _fixed(result)]
-    return Group(*own, design_tables(result.forward))
+    own = _optimum_facts(result), _bounds(result), _modes(result.modes), _fixed(result)
+    return Group(*scope_lines(result.forward.scope), *own, design_tables(replace(result.forward, scope="")))
 
 
 def _optimum_facts(result: "Optimum") -> Table:
