@@ -152,15 +152,13 @@ def _key(written: str, others: Mapping[str, object]) -> tuple[str, Parameter]:
 
 def _change(key: str, row: Parameter, value: object) -> Change:
     """Return one change, its value checked as far as that is possible without the value as designed."""
-    if isinstance(value, Change):
-        value, share = value.value, value.share
-    else:
-        share = isinstance(value, str) and _is_percentage(value)
+    share = value.share if isinstance(value, Change) else isinstance(value, str) and _is_percentage(value)
+    given = value.value if isinstance(value, Change) else value
     if not share:
-        return Change(key, row.check(value))
-    number = as_quantity(value, "-")
+        return Change(key, row.check(given))
+    number = as_quantity(given, "-")
     if number < 0:
-        raise ProblemError(f"{shown(value)} is no share of the value as designed: it is less than nothing")
+        raise ProblemError(f"{shown(given)} is no share of the value as designed: it is less than nothing")
     return Change(key, number, share=True)
 
 
@@ -181,8 +179,8 @@ def outside(case: Case, designed: Mapping[str, float | None]) -> Iterator[Diagno
             row.check(change.result(value))
         except ProblemError:
             reached = format_quantity(change.result(value), row.unit)
-            text = (
-                f"{change.written} of the value as designed is {reached}, outside {row.range_text(row.hard, row.unit)}"
-            )
+            text = f"{change.written} of the value as designed is {reached}"
             hint = "; a damper is removed by 0 % of its damping" if PARAMETERS[change.parameter].rigid else ""
-            yield Diagnostic(key=f"{case.name}.{change.key}", message=f"{text}{hint}")
+            yield Diagnostic(
+                key=f"{case.name}.{change.key}", message=f"{text}, outside {row.range_text(row.hard, row.unit)}{hint}"
+            )

@@ -95,5 +95,5 @@ def why_absent(key: str, kind: str, given: Values, known: Collection[str] = ()) 
 
 
 def fitting_axle_load(p: Mapping[str, float], kind: str) -> float:
-    """Return a quarter of the weight of a car body, two bogie frames, four wheelsets and, if there are any, motors [N]."""
+    """Return a quarter of the weight of a car body, two bogie frames, four wheelsets and the motors, if any [N]."""
     return GRAVITY * (p["M_c"] + 2 * p["M_b"] + 4 * p["M_w"] + (4 * p["M_m"] if kind == "power" else 0)) / 4

@@ -52,30 +52,30 @@ def disagreements(data: Mapping[str, Any], kind: str) -> Iterator[Fault]:
     """Yield what does not fit together in data that have other mistakes: these are left out."""
     bogie, car_body = _known("bogie", data, kind), _known("car_body", data, kind) if "car_body" in data else None
     design = data.get("design")
-    variables = design.get("variables") if isinstance(design, dict) else None
+    variables = design.get("variables") if isinstance(design, dict) else ()
+    known = (*bogie_keys(kind), *CAR_BODY)
     found = misfits(
         kind=kind,
         equations=data.get("equations"),
         bogie=bogie,
         car_body=car_body,
         curve="curve" in data,
-        variables=[key for key in variables if key in (*bogie_keys(kind), *CAR_BODY)]
-        if isinstance(variables, dict)
-        else (),
+        variables=[key for key in known if isinstance(variables, dict) and key in variables],
         cases=read_cases(data["cases"])[0] if "cases" in data else (),
     )
     yield from placed(data, chain(incomplete(bogie), found))
 
 
 def _known(part: str, data: Mapping[str, Any], kind: str) -> Values:
-    """Return what is given of a part, or must be: what is missing or wrong is told elsewhere, and its value not known."""
+    """Return what is given of a part, or must be; None where it is missing or wrong, which is told elsewhere."""
     written = data.get(part)
     given = written if isinstance(written, dict) else {}
     known: dict[str, float | None] = {}
     for name, value in given.items():
-        key = name if name in _ROWS[part] else nearest(name, _allowed((part,), kind))
-        if key in _ROWS[part]:
-            known[key] = _checked(_ROWS[part][key], value)
+        path = (part, name) if name in _ROWS[part] else _meant((part, name), kind)
+        row = _ROWS[part].get(str(path[-1])) if path[:-1] == (part,) else None
+        if row:
+            known[row.key] = _checked(row, value)
     always = parameter_keys(kind) if part == "bogie" else [key for key, row in CAR_BODY.items() if not row.optional]
     return dict.fromkeys(always, None) | known
 
@@ -95,11 +95,12 @@ def placed(data: Mapping[str, Any], found: Iterable[Diagnostic]) -> list[Fault]:
 
 def _named(data: object, name: str) -> Path:
     """Return the path of a dotted name; keys may have points in them."""
-    for key in sorted(data, key=len, reverse=True) if isinstance(data, dict) else ():
+    inner = data if isinstance(data, dict) else {}
+    for key in sorted(inner, key=len, reverse=True):
         if name == key:
             return (key,)
         if name.startswith(f"{key}."):
-            return (key, *_named(data[key], name.removeprefix(f"{key}.")))
+            return (key, *_named(inner[key], name.removeprefix(f"{key}.")))
     return tuple(name.split(".")) if name else ()
 
 
@@ -154,7 +155,8 @@ def _unknown(path: Path, kind: str) -> str:
         return NO_MOTOR
     home = _home(key, around, kind)
     if home is not None:
-        return f"is not a known key here; it belongs {f'under {dotted(home)}' if home else f'beside {dotted(around)}, not in it'}"
+        place = f"under {dotted(home)}" if home else f"beside {dotted(around)}, not in it"
+        return f"is not a known key here; it belongs {place}"
     allowed = _allowed(around, kind)
     near = suggestion(key, allowed)
     return f"is not a known key{near}" if near else f"is not a known key; known here: {', '.join(allowed)}"

@@ -34,9 +34,7 @@ from .variables import OBJECTIVES, Design, Variable
 
 PRESETS: Mapping[str, tuple[str, ...]] = {"bogie": ("table1",), "car_body": ("huo-dai",)}
 SWITCHES: Mapping[str, Mapping[str, tuple[bool, str]]] = {
-    "bogie": {
-        "gravitational_stiffness": (True, "Whether the axle load centres a wheelset that is off the centre line.")
-    },
+    "bogie": {"gravitational_stiffness": (True, "Whether the axle load centres a displaced wheelset.")},
     "car_body": {"overturning": (False, "Whether the weight of the rolled car body acts: -M_c g h_s on its roll.")},
 }
 _STRICT = ConfigDict(extra="forbid")

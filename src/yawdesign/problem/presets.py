@@ -38,7 +38,7 @@ def preset_car_body(name: str) -> dict[str, Any]:
 
 
 def with_presets(data: dict[str, Any]) -> tuple[dict[str, Any], frozenset[str]]:
-    """Return what a file says with the values of its presets filled in, and the parts of which nothing may be missing."""
+    """Return data with the values of presets filled in, and the parts of which nothing may be missing."""
     filled, complete = dict(data), set(PRESETS)
     for part, names in PRESETS.items():
         given = data.get(part)
