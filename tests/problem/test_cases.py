@@ -80,7 +80,10 @@ def test_every_key_of_the_vehicle_may_change_and_no_other(key, percent):
 @pytest.mark.parametrize(
     ("cases", "fragment"),
     [
-        ({"a": {"K_ds": "0 %"}}, "cases.a.K_ds: 0 % of the value as designed is 0 MN/m, outside 1e-06 ... 1e+12 MN/m; a d"),
+        (
+            {"a": {"K_ds": "0 %"}},
+            "cases.a.K_ds: 0 % of the value as designed is 0 MN/m, outside 1e-06 ... 1e+12 MN/m; a d",
+        ),
         ({"a": {"leading.K_dt": "0 %"}}, "leading.K_dt: 0 % of the value as designed is 0 MN/m, outside"),
         ({"a": {"lambda": "10000 %"}}, "cases.a.lambda: 10000 % of the value as designed is 15, outside 0 ... 10"),
         ({"a": {"K_ds": "0 MN/m"}}, "cases.a.K_ds: 0 MN/m is outside"),
@@ -125,6 +128,8 @@ def test_the_damping_as_designed_need_not_be_known():
 
 
 def test_mistakes_in_a_file_have_their_places():
-    text = "bogie: {base: table1}\nspeed: 80 m/s\ncases:\n  no. 1: {C_s: 50 kg}\n  no. 2: {leading.C_t: 0 %, K_ds: 0 %}\n"
+    text = (
+        "bogie: {base: table1}\nspeed: 80 m/s\ncases:\n  no. 1: {C_s: 50 kg}\n  no. 2: {leading.C_t: 0 %, K_ds: 0 %}\n"
+    )
     found = [(d.line, d.column, d.key) for d in read_text(text)[1]]
     assert found == [(4, 16, "cases.no. 1.C_s"), (5, 24, "cases.no. 2.leading.C_t"), (5, 35, "cases.no. 2.K_ds")]

@@ -163,8 +163,8 @@ def test_optional_keys_may_be_left_out_alone_or_only_together():
     assert set(ADDED) == {"J_wy", "C_1x", "C_1y", "K_d1x", "K_d1y", *ROLL, "K_2z", "C_2z"}
     assert Bogie(**values(J_wy=180)).parameters()["J_wy"] == 180
     assert Bogie(**values(**ROLL)).I_b == 3000
-    assert messages(K_d1y=1e7) == ["error: bogie.K_d1y: needs the damper: give C_1y too"]
-    assert messages(h_1=0.1) == ["error: bogie.h_1: belongs to roll: give I_b too"]
+    assert messages(K_d1y=1e7) == ["error: bogie.K_d1y: needs the damper: C_1y is missing"]
+    assert messages(h_1=0.1) == ["error: bogie.h_1: belongs to roll: I_b is missing"]
     assert [text.partition(":")[2] for text in messages(I_b=3e3)] == [
         f" bogie.{key}: is missing: roll of the frame (I_b) needs it" for key in ROLL if key != "I_b"
     ]

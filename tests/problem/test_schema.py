@@ -223,7 +223,9 @@ def row_of_the_page(row):
     return "| " + " | ".join((*cells, row.range_text(row.usual, row.unit), row.example)) + " |"
 
 
-@pytest.mark.parametrize("row", [*BOGIE.values(), *CAR_BODY.values(), *CURVE.values(), SPEED], ids=lambda row: row.meaning)
+@pytest.mark.parametrize(
+    "row", [*BOGIE.values(), *CAR_BODY.values(), *CURVE.values(), SPEED], ids=lambda row: row.meaning
+)
 def test_the_page_has_the_row_of_every_parameter(row):
     assert row_of_the_page(row) in PAGE
 

@@ -4,7 +4,9 @@ import re
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
+from yawdesign.cli import app
 from yawdesign.problem import CarBody, ProblemError, load, loads, starter, table1
 from yawdesign.problem.consistency import fitting_axle_load
 from yawdesign.problem.reader import read_text
@@ -101,11 +103,21 @@ BAD = {
     "as printed": ("bogie", "equations: as-printed\nbogie", 1, "the printed equations have no car body: write recipro"),
     "bogie key in the car body": ("  M_c", "  f_11: 3\n  M_c", 3, "not a known key here; it belongs under bogie"),
     "car body key in the bogie": ("W:", "h_s: 1 m, W:", 1, "is not a known key here; it belongs under car_body"),
-    "car body key at the margin": ("bogie:", "M_c: 3 t\nbogie:", 1, "is not a known key here; it belongs under car_body"),
+    "car body key at the margin": (
+        "bogie:",
+        "M_c: 3 t\nbogie:",
+        1,
+        "is not a known key here; it belongs under car_body",
+    ),
     "speed in the bogie": ("W:", "speed: 80, W:", 1, "is not a known key here; it belongs beside bogie, not in it"),
     "vertical spring in the bogie": ("W:", "K_2z: 3, W:", 1, "belongs under car_body, where there is one"),
     "misspelt": ("  K_2z", "  k2z", 9, "is not a known key; did you mean K_2z?"),
-    "missing": ("  h_t: 0.97 m\n", "", 2, "h_t: is missing: centre of mass of the car body above the secondary lateral"),
+    "missing": (
+        "  h_t: 0.97 m\n",
+        "",
+        2,
+        "h_t: is missing: centre of mass of the car body above the secondary lateral",
+    ),
     "unknown preset": ("  M_c: 34.5 t", "  base: huodai", 3, "huodai is not one of: huo-dai; did you mean huo-dai?"),
     "no car body": (re.search(r"(  .*\n)+", VEHICLE)[0], "", 2, "car_body: has no value, expected keys and values"),
     "no switch": ("  M_c", "  overturning: 1\n  M_c", 3, "1 is neither true nor false"),
@@ -267,3 +279,11 @@ def test_the_shipped_vehicle_is_the_preset_under_the_curve_and_survives_its_faul
     assert [change.key for case in problem.cases for change in case.changes] == [
         *("leading.C_s", "leading.K_ds", "trailing.C_s", "trailing.K_ds")
     ]
+
+
+def test_the_command_writes_a_file_with_a_car_body(tmp_path):
+    path = tmp_path / "vehicle.yaml"
+    assert CliRunner().invoke(app, ["new", str(path), "--car-body", "--kind", "trailer"]).exit_code == 0
+    assert path.read_text(encoding="utf-8") == starter("trailer", car_body=True)
+    result = CliRunner().invoke(app, ["check", str(path)])
+    assert (result.exit_code, result.output) == (0, f"{path}: no errors\n")

@@ -42,7 +42,7 @@ class Change:
 
     @property
     def written(self) -> float | str:
-        """The value as a problem file has it: a share is a percentage."""
+        """The value as a problem file has it: a share is a percentage [%], any other in SI units [SI]."""
         return f"{float(self.value) * 100:.15g} %" if self.share else float(self.value)
 
     def result(self, designed: float) -> float:

@@ -59,7 +59,7 @@ def _vertical_suspension(bogie: Values, car_body: Values | None) -> Iterator[Dia
         if car_body is not None:
             text = "belongs under car_body, where there is one" if key in bogie else ""
         elif (key in bogie) != ("I_b" in bogie):
-            text = "belongs to roll: give I_b too" if key in bogie else "is missing: roll of the frame (I_b) needs it"
+            text = "belongs to roll: I_b is missing" if key in bogie else "is missing: roll of the frame (I_b) needs it"
         if text:
             yield Diagnostic(key=f"bogie.{key}", message=text)
 

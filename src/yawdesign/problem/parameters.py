@@ -48,6 +48,8 @@ class Bogie:
     ----------
     kind : {"power", "trailer"}
         With or without motors.
+    gravitational_stiffness : bool
+        Whether the axle load acts on a displaced wheelset.
     """
 
     kind: Kind = "power"
@@ -431,10 +433,12 @@ def incomplete(given: Collection[str]) -> Iterator[Diagnostic]:
     """Yield what is wrong with keys of a bogie that only make sense together."""
     for joint, damper in (("K_d1x", "C_1x"), ("K_d1y", "C_1y")):
         if joint in given and damper not in given:
-            yield Diagnostic(key=f"bogie.{joint}", message=f"needs the damper: give {damper} too")
+            yield Diagnostic(key=f"bogie.{joint}", message=f"needs the damper: {damper} is missing")
     for key in ROLL_KEYS:
         if key not in VERTICAL and (key in given) != ("I_b" in given):
-            text = "is missing: roll of the frame (I_b) needs it" if "I_b" in given else "belongs to roll: give I_b too"
+            text = (
+                "is missing: roll of the frame (I_b) needs it" if "I_b" in given else "belongs to roll: I_b is missing"
+            )
             yield Diagnostic(key=f"bogie.{key}", message=text)
 
 

@@ -214,7 +214,7 @@ def as_several(value: Any) -> list[Any]:
 
 
 def _is_rigid(value: object) -> bool:
-    return value == RIGID or (isinstance(value, str) and value.strip() == "rigid")
+    return value.strip() == "rigid" if isinstance(value, str) else isinstance(value, Real) and value == RIGID
 
 
 def as_switch(value: object) -> bool:
