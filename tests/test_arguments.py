@@ -86,6 +86,8 @@ def right(tmp_path_factory):
         "is_angle": False,
         **dict.fromkeys(("distance", "alignment", "cross_level"), np.arange(9.0)),
         **{"R": 300, "L": 19, "l": 60, "V_r": 25},
+        **{"I_b": 3e3, "K_1z": 1.2e6, "C_1z": 1e4, "h_1": 0.1, "h_2": 0.2, "h_2t": 0.1, "C_1x": 2e4, "C_1y": 2e4},
+        **{"M_c": 34500.0, "J_c": 1.5e6, "I_c": 1.2e5, "h_s": 0.9, "h_t": 1.0, "K_2z": 6e5, "C_2z": 1e4},
         **{key.replace("lambda", "lambda_"): value for key, value in problem.bogie.parameters().items()},
         "axes": {"v": [50.0, 60.0]},
         "axis": {"v": [50.0, 60.0]},

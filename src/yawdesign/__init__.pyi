@@ -17,6 +17,7 @@ from yawdesign.output.animation import animate as animate
 from yawdesign.output.plots import plot as plot
 from yawdesign.problem import PARAMETERS as PARAMETERS
 from yawdesign.problem import Bogie as Bogie
+from yawdesign.problem import CarBody as CarBody
 from yawdesign.problem import Curve as Curve
 from yawdesign.problem import Design as Design
 from yawdesign.problem import Problem as Problem

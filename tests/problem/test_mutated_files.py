@@ -12,6 +12,9 @@ from yawdesign.problem.reader import read_text
 GOOD = (
     starter(),
     starter("trailer"),
+    starter("trailer", car_body=True),
+    "bogie: {base: table1, K_ds: rigid, C_1y: 20 kN s/m}\ncar_body: {base: huo-dai, l_c: 9 m}\nspeed: 80 m/s\n"
+    "cases:\n  one. lost: {leading.C_s: 50 %, C_t: 0}\n  b: {K_2z: 3e5}\n",
     "{bogie: {base: table1, K_m: &k 6.3e5, C_t: 60 kN.s/m}, speed: {min: 200 km/h, max: 300 km/h, steps: 5}}",
     "bogie:\t# a tab\n  base: table1\nspeed:\t90 km/h\t# fast\ncurve: {R: 300 m, L: 19 m, l: 60 m, V_r: 90}\n"
     "title: >\n  a\n  b\n",

@@ -12,6 +12,7 @@ from jsonschema import Draft202012Validator
 from ruamel.yaml import YAML
 
 from yawdesign.problem import PARAMETERS, ProblemError, parse_quantity, read, schema, starter
+from yawdesign.problem.parameters import BOGIE, CAR_BODY, parameter_keys
 from yawdesign.problem.running import CURVE, SPEED
 from yawdesign.problem.units import unit_names
 
@@ -42,9 +43,14 @@ def test_shipped_problems_name_the_schema_and_fit_it(path):
     assert errors(text) == []
 
 
+@pytest.mark.parametrize("car_body", [False, True])
 @pytest.mark.parametrize("kind", ["power", "trailer"])
-def test_the_starter_fits_the_schema(kind):
-    assert errors(starter(kind)) == []
+def test_the_starter_fits_the_schema(kind, car_body):
+    assert errors(starter(kind, car_body=car_body)) == []
+
+
+ROLL = "I_b: 3000, K_1z: 1.2 MN/m, C_1z: 10 kN s/m, h_1: 0.1 m, h_2: 0.2 m, h_2t: 0.1 m"
+SPRUNG = "K_2z: 0.6 MN/m, C_2z: 9.8 kN s/m"
 
 
 @pytest.mark.parametrize(
@@ -54,6 +60,12 @@ def test_the_starter_fits_the_schema(kind):
         "{bogie: {base: table1, K_m: 6.3e5, b: 0.746 5 m, lambda: 15 %}, speed: {min: 200 km/h, max: 83, steps: 5}}",
         "{bogie: {base: table1, K_m: 6×10⁵ N/m, C_t: 60 kN.s/m, J_b: 9.7 t.m2, lambda: 1.5×10^-1}, speed: 80 m/s}",
         "{bogie: {base: table1, kind: trailer}, speed: 0.5 km/h, design: {variables: {C_s: {min: 1, max: 2 N s/m}}}}",
+        "{bogie: {base: table1, K_ds: rigid, C_1y: 3 kN s/m, K_d1y: rigid, J_wy: 180}, speed: 80}",
+        f"{{bogie: {{base: table1, {ROLL}, {SPRUNG}, gravitational_stiffness: false}}, speed: 80}}",
+        f"{{bogie: {{base: table1, {ROLL}}}, car_body: {{base: huo-dai, l_c: 9 m, overturning: true}}, speed: 80}}",
+        "{bogie: {base: table1}, speed: 80, cases: {a b: {C_s: 50 %, K_ds: 20 MN/m}, c: {lambda: 0.3}}}",
+        "{bogie: {base: table1}, car_body: {base: huo-dai}, speed: 80, cases: {a: {leading.C_s: 0 %, K_2z: 3}}}",
+        "{bogie: {base: table1}, speed: 80, design: {variables: {C_1x: {min: 1, max: 2}, M_c: {min: 3, max: 4 t}}}}",
     ],
 )
 def test_right_problems_fit(text):
@@ -86,6 +98,25 @@ def test_right_problems_fit(text):
         "{bogie: {base: table1}, speed: 80, design: {objective: best}}",
         "{bogie: {base: table1}, speed: 80, equations: printed}",
         "{bogie: {base: table1}, speed: 80, title: [a]}",
+        "{bogie: {base: table1, K_1x: rigid}, speed: 80}",
+        "{bogie: {base: table1, K_d1x: 3}, speed: 80}",
+        "{bogie: {base: table1, I_b: 3}, speed: 80}",
+        "{bogie: {base: table1, K_2z: 3}, speed: 80}",
+        f"{{bogie: {{base: table1, {ROLL}}}, speed: 80}}",
+        f"{{bogie: {{base: table1, {ROLL}, {SPRUNG}}}, car_body: {{base: huo-dai}}, speed: 80}}",
+        "{bogie: {base: table1, gravitational_stiffness: 1}, speed: 80}",
+        "{bogie: {base: table1, M_c: 3 t}, speed: 80}",
+        "{bogie: {base: table1}, car_body: {base: table1}, speed: 80}",
+        "{bogie: {base: table1}, car_body: {M_c: 30 t}, speed: 80}",
+        "{bogie: {base: table1}, car_body: {base: huo-dai, J_c: -1}, speed: 80}",
+        "{bogie: {base: table1}, car_body: {base: huo-dai, f_11: 3}, speed: 80}",
+        "{bogie: {base: table1}, car_body: {base: huo-dai}, equations: as-printed, speed: 80}",
+        "{bogie: {base: table1}, speed: 80, cases: {a: {}}}",
+        "{bogie: {base: table1}, speed: 80, cases: {a: 50 %}}",
+        "{bogie: {base: table1}, speed: 80, cases: {a: {K_dsx: 50 %}}}",
+        "{bogie: {base: table1}, speed: 80, cases: {a: {C_s: -50 %}}}",
+        "{bogie: {base: table1}, speed: 80, cases: {a: {C_s: 50 kg}}}",
+        "{bogie: {base: table1}, speed: 80, design: {variables: {K_ds: {min: 1, max: rigid}}}}",
     ],
 )
 def test_broken_problems_do_not_fit(text):
@@ -139,6 +170,7 @@ def patterns():
     everything = VALIDATOR.schema
     properties = {
         **everything["$defs"]["Bogie"]["properties"],
+        **everything["$defs"]["CarBody"]["properties"],
         SPEED.key: everything["properties"]["speed"]["oneOf"][0],
     }
     for row in {row.unit: row for row in [*PARAMETERS.values(), SPEED]}.values():
@@ -155,20 +187,24 @@ def test_no_right_unit_is_refused(row, pattern, unit, number):
 
 
 def test_starters_without_one_parameter_do_not_fit():
-    for key, row in PARAMETERS.items():
-        without = re.sub(rf"^  {key}: .*\n", "", starter(), flags=re.MULTILINE)
-        assert bool(errors(without)) is not row.optional
+    text = starter(car_body=True)
+    for key in (*parameter_keys("power"), *CAR_BODY):
+        without = re.sub(rf"^  {key}: .*\n", "", text, flags=re.MULTILINE)
+        assert without != text
+        assert bool(errors(without)) is not PARAMETERS[key].optional
 
 
-def test_every_parameter_has_a_hover_text_and_an_example():
-    properties = schema()["$defs"]["Bogie"]["properties"]
-    for key, row in PARAMETERS.items():
+@pytest.mark.parametrize(("part", "rows"), [("Bogie", BOGIE), ("CarBody", CAR_BODY)])
+def test_every_parameter_has_a_hover_text_and_an_example(part, rows):
+    properties = schema()["$defs"][part]["properties"]
+    for key, row in rows.items():
         hover = properties[key]["description"]
         assert row.meaning[1:] in hover
         assert row.symbol in hover
         assert f"[{row.unit}]" in hover
         assert row.range_text(row.hard) in hover
         assert properties[key]["examples"] == [row.example]
+        assert ({"const": "rigid"} in properties[key]["anyOf"]) is row.rigid
 
 
 def test_the_schema_has_no_nulls_and_no_made_up_titles():
@@ -187,7 +223,9 @@ def row_of_the_page(row):
     return "| " + " | ".join((*cells, row.range_text(row.usual, row.unit), row.example)) + " |"
 
 
-@pytest.mark.parametrize("row", [*PARAMETERS.values(), *CURVE.values(), SPEED], ids=lambda row: row.key)
+@pytest.mark.parametrize(
+    "row", [*BOGIE.values(), *CAR_BODY.values(), *CURVE.values(), SPEED], ids=lambda row: row.meaning
+)
 def test_the_page_has_the_row_of_every_parameter(row):
     assert row_of_the_page(row) in PAGE
 

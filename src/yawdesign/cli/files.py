@@ -40,6 +40,7 @@ def export(
 def new(
     file: Annotated[str, typer.Argument(help="The file to write.")] = "problem.yaml",
     kind: Annotated[str, typer.Option(help="power or trailer.")] = "power",
+    car_body: Annotated[bool, typer.Option("--car-body", help="With a car body on two such bogies.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
 ) -> None:
     """Write a commented problem file to start from, and beside it the schema that editors use."""
@@ -54,7 +55,7 @@ def new(
         if path.name == SCHEMA_FILE:
             raise ProblemError(f"{file}: the schema is written under this name beside the problem: choose another name")
         checked_targets([Target("", file, replaced=force)], [])
-        write_whole(path, starter(kind).encode(), replace=force)
+        write_whole(path, starter(kind, car_body=car_body).encode(), replace=force)
         schema = path.with_name(SCHEMA_FILE)
         beside = f" and {schema}" if path.is_file() and _write_schema(schema, force) else ""
         write_answer(f"wrote {file}{beside}; next: yawdesign optimise {file}\n")

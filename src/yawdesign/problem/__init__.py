@@ -1,7 +1,7 @@
 """What was written: units, the table of parameters, problem files, and the problem they describe."""
 
 from .diagnostics import Diagnostic, ProblemError
-from .parameters import PARAMETERS, Bogie
+from .parameters import PARAMETERS, Bogie, CarBody
 from .presets import table1
 from .problem import Problem
 from .quantities import Written, exact, format_quantity, parse_quantity, to_unit
@@ -16,6 +16,7 @@ __all__ = [
     "PARAMETERS",
     "SCHEMA_FILE",
     "Bogie",
+    "CarBody",
     "Curve",
     "Design",
     "Diagnostic",

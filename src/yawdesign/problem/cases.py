@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from .diagnostics import Diagnostic, Mistakes, ProblemError, suggestion
+from .parameters import BOGIE, CAR_BODY, PARAMETERS
+from .quantities import format_quantity, split_quantity
+from .table import Parameter, as_quantity, as_text, key_of, shown
+
 BOGIES = ("leading", "trailing")
 SHARE = "C_s share"  # of a bogie's own yaw dampers, what C_s is multiplied by
+ONE_BOGIE = tuple(f"{bogie}.{key}" for bogie in BOGIES for key in BOGIE)
+_EXAMPLE = "one yaw damper lost: {C_s: 50 %, K_ds: 50 %}"
 
 
 @dataclass(frozen=True)
@@ -27,6 +34,20 @@ class Change:
     key: str
     value: float
     share: bool = False
+
+    @property
+    def parameter(self) -> str:
+        """The parameter, of whichever bogie."""
+        return self.key.rpartition(".")[2]
+
+    @property
+    def written(self) -> float | str:
+        """The value as a problem file has it: a share is a percentage [%], any other in SI units [SI]."""
+        return f"{float(self.value) * 100:.15g} %" if self.share else float(self.value)
+
+    def result(self, designed: float) -> float:
+        """Return the value with the fault, from that as designed."""
+        return designed * self.value if self.share else self.value
 
 
 @dataclass(frozen=True)
@@ -58,3 +79,108 @@ class Case:
             else:
                 out[name] = p[key] * change.value if change.share else change.value
         return out
+
+
+def as_cases(value: object) -> tuple[Case, ...]:
+    """Return faults, given as such or as a problem file has them: changes by the name of each.
+
+    Examples
+    --------
+    >>> as_cases({"one yaw damper lost": {"C_s": "50 %"}})[0].changes
+    (Change(key='C_s', value=0.5, share=True),)
+    """
+    cases, mistakes = read_cases(value)
+    if mistakes:
+        raise ProblemError(mistakes)
+    return cases
+
+
+def read_cases(value: object) -> tuple[tuple[Case, ...], list[Diagnostic]]:
+    """Return the faults that are right, and the mistakes in the others."""
+    mistakes, found = Mistakes(), []
+    with mistakes.under(""):
+        for name, changes in _items(value):
+            with mistakes.under(str(name)):
+                found.append(Case(_name(name), _changes(changes)))
+    return tuple(found), mistakes.found
+
+
+def _items(value: object) -> list[tuple[object, object]]:
+    if isinstance(value, Mapping):
+        return list(value.items())
+    if isinstance(value, (tuple, list)) and all(isinstance(case, Case) for case in value):
+        names = [case.name for case in value]
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise ProblemError(f"{shown(twice)} stands twice")
+        return [(case.name, {change.key: change for change in case.changes}) for case in value]
+    what = "has no value" if value is None else f"{shown(value)} is not what stands here"
+    raise ProblemError(f"{what}, expected faults by name, such as {_EXAMPLE}")
+
+
+def _name(name: object) -> str:
+    text = as_text(name).strip()
+    if not text:
+        raise ProblemError("a fault needs a name")
+    return text
+
+
+def _changes(given: object) -> tuple[Change, ...]:
+    if not isinstance(given, Mapping) or not given:
+        raise ProblemError(f"names no change, expected keys and values, such as {_EXAMPLE}")
+    mistakes, found = Mistakes(), []
+    for key, value in given.items():
+        with mistakes.under(str(key)):
+            found.append(_change(*_key(str(key), given), value))
+    mistakes.report()
+    return tuple(found)
+
+
+def _key(written: str, others: Mapping[str, object]) -> tuple[str, Parameter]:
+    """Return a key as results have it, and its row of the table."""
+    bogie, point, name = written.rpartition(".")
+    name = key_of(name)
+    key = f"{bogie}{point}{name}"
+    if bogie in BOGIES and name in CAR_BODY and name not in BOGIE:
+        raise ProblemError(f"belongs to the car body, of which there is one: write {name}")
+    if key not in PARAMETERS and key not in ONE_BOGIE:
+        raise ProblemError(f"is not a parameter{suggestion(key, (*PARAMETERS, *ONE_BOGIE))}")
+    if bogie and name in others:
+        raise ProblemError(f"stands beside {name}, which means both bogies: give each bogie its own, or both the same")
+    return key, PARAMETERS[name].finite
+
+
+def _change(key: str, row: Parameter, value: object) -> Change:
+    """Return one change, its value checked as far as that is possible without the value as designed."""
+    share = value.share if isinstance(value, Change) else isinstance(value, str) and _is_percentage(value)
+    given = value.value if isinstance(value, Change) else value
+    if not share:
+        return Change(key, row.check(given))
+    number = as_quantity(given, "-")
+    if number < 0:
+        raise ProblemError(f"{shown(given)} is no share of the value as designed: it is less than nothing")
+    return Change(key, number, share=True)
+
+
+def _is_percentage(text: str) -> bool:
+    try:
+        return split_quantity(text)[1] == "%"
+    except ProblemError:
+        return False  # no quantity at all: the row of the table says so
+
+
+def outside(case: Case, designed: Mapping[str, float | None]) -> Iterator[Diagnostic]:
+    """Yield the shares in a fault that lead out of the range of a parameter; values as designed by key, where known."""
+    for change in case.changes:
+        value, row = designed.get(change.parameter), PARAMETERS[change.parameter].finite
+        if not change.share or value is None:
+            continue
+        try:
+            row.check(change.result(value))
+        except ProblemError:
+            reached = format_quantity(change.result(value), row.unit)
+            text = f"{change.written} of the value as designed is {reached}"
+            hint = "; a damper is removed by 0 % of its damping" if PARAMETERS[change.parameter].rigid else ""
+            yield Diagnostic(
+                key=f"{case.name}.{change.key}", message=f"{text}, outside {row.range_text(row.hard, row.unit)}{hint}"
+            )

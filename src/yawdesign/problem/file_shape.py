@@ -22,16 +22,21 @@ from pydantic import (
 )
 from pydantic import create_model as make
 
+from .cases import as_cases
 from .diagnostics import ProblemError
-from .parameters import KINDS, PARAMETERS, Bogie, parameter_keys
+from .parameters import BOGIE, CAR_BODY, KINDS, PARAMETERS, Bogie, CarBody, bogie_keys
 from .patterns import unit_pattern
 from .problem import EQUATIONS, Problem
 from .running import CURVE, LOADS, SPEED, STEPS, Curve, SpeedRange
-from .table import Parameter, as_choice, as_count, as_text, check_end, field_name
+from .table import Parameter, as_choice, as_count, as_switch, as_text, check_end, field_name
 from .units import kind_of
 from .variables import OBJECTIVES, Design, Variable
 
-PRESETS = ("table1",)
+PRESETS: Mapping[str, tuple[str, ...]] = {"bogie": ("table1",), "car_body": ("huo-dai",)}
+SWITCHES: Mapping[str, Mapping[str, tuple[bool, str]]] = {
+    "bogie": {"gravitational_stiffness": (True, "Whether the axle load centres a displaced wheelset.")},
+    "car_body": {"overturning": (False, "Whether the weight of the rolled car body acts: -M_c g h_s on its roll.")},
+}
 _STRICT = ConfigDict(extra="forbid")
 
 
@@ -52,7 +57,8 @@ def _quantity_schema(row: Parameter) -> dict[str, Any]:
     number = {"type": "number", "minimum": row.hard[0], "maximum": row.hard[1]}
     pattern = _QUANTITY.format(tens=_TENS, unit=unit_pattern(row.unit))
     text = {"type": "string", "pattern": pattern, "description": kind_of(row.unit)}
-    return {"description": hover, "anyOf": [number, text], "examples": [row.example]}
+    words = [{"const": "rigid"}] if row.rigid else []
+    return {"description": hover, "anyOf": [number, text, *words], "examples": [row.example]}
 
 
 def quantity(row: Parameter) -> Any:
@@ -78,16 +84,26 @@ def _model(name: str, meaning: str, entries: Mapping[str, tuple[Any, Any]]) -> t
     return make(name, __config__=_STRICT, __doc__=meaning, **entries)  # type: ignore[call-overload, no-any-return]
 
 
-def _bogie_model(kind: str, *, complete: bool) -> type[BaseModel]:
-    def default(row: Parameter) -> Any:
-        return ... if complete and not row.optional else None
+def _part(part: str, rows: Iterable[Parameter], *, complete: bool) -> dict[str, tuple[Any, Any]]:
+    """Return the entries of bogie or car body: preset, parameters and switches."""
+    base = _choice(PRESETS[part], "Preset whose values are used for all keys that are not given.")
+    values = {row.key: (quantity(row), ... if complete and not row.optional else None) for row in rows}
+    switches = {
+        key: (_leaf(as_switch, {"type": "boolean", "default": usual, "description": meaning}), None)
+        for key, (usual, meaning) in SWITCHES[part].items()
+    }
+    return {"base": (base, None), **values, **switches}
 
-    rows = {key: (quantity(row), default(row)) for key, row in PARAMETERS.items() if key in parameter_keys(kind)}
+
+def _bogie_model(kind: str, *, complete: bool) -> type[BaseModel]:
     kinds = _choice(KINDS, "With or without motors hung on the frame.", "power")
-    base = _choice(PRESETS, "Preset whose values are used for all keys that are not given.")
-    return _model(
-        "Bogie", "The bogie, with the symbols of Table I.", {"kind": (kinds, "power"), "base": (base, None)} | rows
-    )
+    part = _part("bogie", (BOGIE[key] for key in bogie_keys(kind)), complete=complete)
+    return _model("Bogie", "The bogie, with the symbols of Table I.", {"kind": (kinds, "power"), **part})
+
+
+def _car_body_model(*, complete: bool) -> type[BaseModel]:
+    meaning = "The car body on two such bogies; without it the car body stands still."
+    return _model("CarBody", meaning, _part("car_body", CAR_BODY.values(), complete=complete))
 
 
 def _curve_model() -> type[BaseModel]:
@@ -97,6 +113,7 @@ def _curve_model() -> type[BaseModel]:
 
 
 def _bounds(row: Parameter) -> type[BaseModel]:
+    row = row.finite
     return _model(
         f"Bounds_{row.key}",
         f"Bounds of {row.key}: {row.meaning}.",
@@ -126,7 +143,7 @@ def _not_empty(value: object) -> object:
 
 
 def _design_model(kind: str) -> type[BaseModel]:
-    rows: Iterable[Parameter] = (PARAMETERS[key] for key in parameter_keys(kind))
+    rows = (row for key, row in PARAMETERS.items() if key in CAR_BODY or key in bogie_keys(kind))
     variables = _model(
         "Variables",
         "Parameters that may be changed, with their bounds; without this key: C_s, K_m and C_m.",
@@ -142,15 +159,15 @@ def _design_model(kind: str) -> type[BaseModel]:
 
 
 @cache
-def problem_model(kind: str, *, complete: bool = True) -> type[BaseModel]:
+def problem_model(kind: str, complete: frozenset[str] = frozenset(PRESETS)) -> type[BaseModel]:
     """Return the model of a problem file.
 
     Parameters
     ----------
     kind : {"power", "trailer"}
         Whether there are motors.
-    complete : bool
-        Whether all parameters of the bogie are required; they are not where the preset is not known.
+    complete : frozenset of str
+        Of which parts all parameters are required: ``bogie``, ``car_body``; they are not where the preset is not known.
     """
     text = _leaf(as_text, {"type": "string", "description": "Any text; it heads tables and plots."})
     equations = _choice(
@@ -164,9 +181,11 @@ def problem_model(kind: str, *, complete: bool = True) -> type[BaseModel]:
         {
             "title": (text, None),
             "equations": (equations, None),
-            "bogie": (_bogie_model(kind, complete=complete), ...),
+            "bogie": (_bogie_model(kind, complete="bogie" in complete), ...),
+            "car_body": (_car_body_model(complete="car_body" in complete), None),
             "speed": (_speed(), ...),
             "curve": (_curve_model(), None),
+            "cases": (_leaf(as_cases, {"description": "Faults that must be survived, by name."}), None),
             "design": (_design_model(kind), None),
         },
     )
@@ -179,9 +198,11 @@ def build(model: BaseModel) -> Problem:
     return Problem(
         title=data.get("title", ""),
         equations=data.get("equations", "reciprocal"),
-        bogie=_bogie(data["bogie"]),
+        bogie=Bogie(**_values(data["bogie"])),
+        car_body=CarBody(**_values(data["car_body"])) if "car_body" in data else None,
         speed=SpeedRange(**speed) if isinstance(speed, dict) else speed,
         curve=Curve(**data["curve"]) if "curve" in data else None,
+        cases=data.get("cases", ()),
         design=_design(data.get("design", {})),
     )
 
@@ -192,8 +213,8 @@ def given(model: BaseModel) -> dict[str, Any]:
     return {key: given(value) if isinstance(value, BaseModel) else value for key, value in values.items()}
 
 
-def _bogie(data: dict[str, Any]) -> Bogie:
-    return Bogie(**{field_name(key): value for key, value in data.items() if key != "base"})
+def _values(data: dict[str, Any]) -> dict[str, Any]:
+    return {field_name(key): value for key, value in data.items() if key != "base"}
 
 
 def _design(data: dict[str, Any]) -> Design:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import partial
 from types import MappingProxyType
@@ -47,6 +48,8 @@ class Bogie:
     ----------
     kind : {"power", "trailer"}
         With or without motors.
+    gravitational_stiffness : bool
+        Whether the axle load acts on a displaced wheelset.
     """
 
     kind: Kind = "power"
@@ -277,7 +280,7 @@ class Bogie:
     K_2z: float | None = _rolling(
         r"K_{2z}",
         "MN/m",
-        "vertical stiffness of the secondary suspension on one side of the bogie; under car_body, if there is one",
+        "vertical stiffness of the secondary suspension on one side of the bogie",
         hard=(0.0, 1e18),
         usual=(50e3, 5e6),
         source="0.61",
@@ -285,7 +288,7 @@ class Bogie:
     C_2z: float | None = _rolling(
         r"C_{2z}",
         "kN·s/m",
-        "vertical damping of the secondary suspension on one side of the bogie; under car_body, if there is one",
+        "vertical damping of the secondary suspension on one side of the bogie",
         hard=(0.0, 1e12),
         usual=(0, 500e3),
         source="9.8",
@@ -301,21 +304,8 @@ class Bogie:
         with mistakes.under("bogie.kind"):
             as_choice(self.kind, KINDS)
             mistakes.found.extend(self._misplaced())
-        mistakes.found.extend(self._incomplete())
+        mistakes.found.extend(incomplete(given_of(self)))
         mistakes.report()
-
-    def _incomplete(self) -> list[Diagnostic]:
-        """Return what is wrong with values that only make sense together."""
-        found = []
-        for joint, damper in (("K_d1x", "C_1x"), ("K_d1y", "C_1y")):
-            if getattr(self, joint) is not None and getattr(self, damper) is None:
-                found.append(Diagnostic(key=f"bogie.{joint}", message=f"needs the damper: give {damper} too"))
-        own = [key for key in ROLL_KEYS if key not in ("K_2z", "C_2z")]
-        for key in own:
-            if (getattr(self, key) is None) != (self.I_b is None):
-                text = "is missing: roll of the frame (I_b) needs it" if self.I_b else "belongs to roll: give I_b too"
-                found.append(Diagnostic(key=f"bogie.{key}", message=text))
-        return found
 
     def _misplaced(self) -> list[Diagnostic]:
         """Return what is wrong with the motor's values: all are needed, or none is allowed."""
@@ -419,18 +409,37 @@ class CarBody:
         return given_values(self)
 
 
+def given_of(part: Bogie | CarBody) -> dict[str, float]:
+    """Return what is given of a part, in SI by key; a joint that is rigid is infinite."""
+    values = {key: getattr(part, field_name(key)) for key in table(type(part))}
+    return {key: value for key, value in values.items() if value is not None}
+
+
 def given_values(part: Bogie | CarBody) -> dict[str, float]:
     """Return the values of a part in SI by key, without those that are not given, and the joints that are rigid."""
-    values = {key: getattr(part, field_name(key)) for key in table(type(part))}
-    return {key: value for key, value in values.items() if value is not None and not math.isinf(value)}
+    return {key: value for key, value in given_of(part).items() if not math.isinf(value)}
 
 
 NO_MOTOR = "belongs to the motors, and a trailer bogie has none: remove it, or choose kind: power"
 BOGIE, CAR_BODY = table(Bogie), table(CarBody)
 PARAMETERS = MappingProxyType({**BOGIE, **CAR_BODY})
 MOTOR_KEYS: tuple[str, ...] = tuple(key for key, row in BOGIE.items() if row.motor)
-ROLL_KEYS = ("I_b", "K_1z", "C_1z", "h_1", "h_2", "h_2t", "K_2z", "C_2z")
+VERTICAL = ("K_2z", "C_2z")  # of the secondary suspension: under car_body where there is one
+ROLL_KEYS = ("I_b", "K_1z", "C_1z", "h_1", "h_2", "h_2t", *VERTICAL)
 ADDED = tuple(key for key, row in BOGIE.items() if row.optional and key != "C_s")  # to the bogie of Table I
+
+
+def incomplete(given: Collection[str]) -> Iterator[Diagnostic]:
+    """Yield what is wrong with keys of a bogie that only make sense together."""
+    for joint, damper in (("K_d1x", "C_1x"), ("K_d1y", "C_1y")):
+        if joint in given and damper not in given:
+            yield Diagnostic(key=f"bogie.{joint}", message=f"needs the damper: {damper} is missing")
+    for key in ROLL_KEYS:
+        if key not in VERTICAL and (key in given) != ("I_b" in given):
+            text = (
+                "is missing: roll of the frame (I_b) needs it" if "I_b" in given else "belongs to roll: I_b is missing"
+            )
+            yield Diagnostic(key=f"bogie.{key}", message=text)
 
 
 def bogie_keys(kind: str) -> tuple[str, ...]:

@@ -1,15 +1,16 @@
-"""Bogies from the literature that come with the package, as problem files beside this module."""
+"""Bogies and car bodies from the literature that come with the package, as problem files beside this module."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
 from typing import Any
 
 from .diagnostics import Mistakes
 from .document import compose, plain_data
-from .file_shape import build, problem_model
-from .parameters import KINDS, parameter_keys
+from .file_shape import PRESETS, build, problem_model
+from .parameters import KINDS, bogie_keys
 from .problem import EQUATIONS, Problem
 from .table import as_choice
 
@@ -28,7 +29,34 @@ def _preset(name: str) -> Any:
 def preset_bogie(name: str, kind: str) -> dict[str, Any]:
     """Return a preset's bogie by key, without what it does not have; a trailer bogie gets no motor values."""
     bogie = _preset(name)["bogie"]
-    return {"kind": kind} | {key: bogie[key] for key in parameter_keys(kind) if key in bogie}
+    return {"kind": kind} | {key: bogie[key] for key in bogie_keys(kind) if key in bogie}
+
+
+def preset_car_body(name: str) -> dict[str, Any]:
+    """Return a preset's car body by key."""
+    return dict(_preset(name)["car_body"])
+
+
+def with_presets(data: dict[str, Any]) -> tuple[dict[str, Any], frozenset[str]]:
+    """Return data with the values of presets filled in, and the parts of which nothing may be missing."""
+    filled, complete = dict(data), set(PRESETS)
+    for part, names in PRESETS.items():
+        given = data.get(part)
+        if not isinstance(given, dict) or "base" not in given:
+            continue
+        base = given["base"]
+        if base not in names:
+            complete.remove(part)
+            continue
+        preset = preset_bogie(base, kind_of_bogie(data)) if part == "bogie" else preset_car_body(base)
+        filled[part] = preset | given
+    return filled, frozenset(complete)
+
+
+def kind_of_bogie(data: Mapping[str, Any]) -> str:
+    """Return the kind of bogie that a file is about."""
+    bogie = data.get("bogie")
+    return "trailer" if isinstance(bogie, dict) and bogie.get("kind") == "trailer" else "power"
 
 
 def table1(kind: str = "power", equations: str = "reciprocal") -> Problem:

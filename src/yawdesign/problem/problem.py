@@ -8,9 +8,10 @@ from numbers import Real
 from typing import Any, Literal, Self, get_args
 
 from .arguments import named
-from .cases import Case
-from .diagnostics import Mistakes, ProblemError, unknown_key
-from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, PARAMETERS, Bogie, CarBody, bogie_keys
+from .cases import Case, as_cases
+from .consistency import misfits, present, why_absent
+from .diagnostics import Mistakes, ProblemError
+from .parameters import CAR_BODY, VERTICAL, Bogie, CarBody, bogie_keys, given_of
 from .quantities import Written, exact
 from .running import CURVE, SPEED, Curve, SpeedRange
 from .table import RIGID, as_choice, as_text, field_name, key_of
@@ -43,6 +44,9 @@ class Problem:
         The car body on two such bogies, with reciprocal equations; without it the car body stands still.
     title : str
         Any text; it heads tables and plots.
+    cases : tuple of Case
+        Faults that must be survived; they may be given as a problem file has them, ``{"one yaw damper lost": {"C_s":
+        "50 %", "K_ds": "50 %"}}``: a percentage is a share of the value as designed.
     """
 
     bogie: Bogie
@@ -50,9 +54,9 @@ class Problem:
     equations: Equations = "reciprocal"
     car_body: CarBody | None = None
     curve: Curve | None = None
-    cases: tuple[Case, ...] = ()
     design: Design = field(default_factory=Design)
     title: str = ""
+    cases: tuple[Case, ...] = ()
 
     def __post_init__(self) -> None:
         mistakes = Mistakes()
@@ -66,51 +70,32 @@ class Problem:
         if not isinstance(self.speed, SpeedRange):
             with mistakes.under("speed"):
                 object.__setattr__(self, "speed", SPEED.accept(self.speed))
+        with mistakes.under("cases"):
+            object.__setattr__(self, "cases", as_cases(self.cases))
         mistakes.report()
-        self._fit_together()
-        self._fill_design()
-
-    def _fit_together(self) -> None:
-        """Refuse what bogie, car body and equations do not allow together; fill in l_c."""
-        mistakes = Mistakes()
-        roll = ("K_2z", "C_2z")
-        for key in roll:
-            with mistakes.under(f"bogie.{key}"):
-                given = getattr(self.bogie, key) is not None
-                if self.car_body is not None and given:
-                    raise ProblemError("belongs under car_body, where there is one")
-                if self.car_body is None and given != (self.bogie.I_b is not None):
-                    raise ProblemError("belongs to roll: give I_b too" if given else "is missing: I_b needs it")
-        if self.car_body is not None:
-            with mistakes.under("equations"):
-                if self.equations == "as-printed":
-                    raise ProblemError("the printed equations have no car body: write reciprocal, or remove car_body")
-            with mistakes.under("car_body.l_c"):
-                if self.car_body.l_c is None:
-                    if self.curve is None:
-                        raise ProblemError("is missing: give half the distance of the bogie centres, or a curve with L")
-                    half = Written(exact(self.curve.L) / 2)
-                    object.__setattr__(self, "car_body", replace(self.car_body, l_c=half))
-        mistakes.report()
-
-    def _fill_design(self) -> None:
         if not self.design.variables:
             design = replace(self.design, variables=default_variables(self.bogie.kind))
             object.__setattr__(self, "design", design)
-        mistakes = Mistakes()
-        for key in self.design.variables:
-            with mistakes.under(f"design.variables.{key}"):
-                if key not in self.keys:
-                    raise ProblemError(self._why_absent(key))
-        mistakes.report()
+        self._fit_together()
 
-    def _why_absent(self, key: str) -> str:
-        if key in MOTOR_KEYS and self.bogie.kind == "trailer":
-            return NO_MOTOR
-        if key in PARAMETERS:
-            part = "car_body" if key in CAR_BODY else "bogie"
-            return f"is not part of this vehicle: give its value under {part} first"
-        return unknown_key(key, self.keys)
+    def _fit_together(self) -> None:
+        """Refuse what its parts do not allow together; fill in l_c."""
+        found = tuple(
+            misfits(
+                kind=self.bogie.kind,
+                equations=self.equations,
+                bogie=given_of(self.bogie),
+                car_body=given_of(self.car_body) if self.car_body else None,
+                curve=self.curve is not None,
+                variables=self.design.variables,
+                cases=self.cases,
+            )
+        )
+        if found:
+            raise ProblemError(found)
+        if self.car_body is not None and self.car_body.l_c is None and self.curve is not None:
+            half = Written(exact(self.curve.L) / 2)
+            object.__setattr__(self, "car_body", replace(self.car_body, l_c=half))
 
     def parameters(self) -> dict[str, float]:
         """Return the values of bogie and car body in SI by key, without those that are not given or rigid.
@@ -124,8 +109,7 @@ class Problem:
     @property
     def keys(self) -> tuple[str, ...]:
         """Names of its parameters, C_s among them, in the order of the table."""
-        given = self.parameters()
-        return tuple(key for key in PARAMETERS if key in given or key == "C_s")
+        return present(self.parameters())
 
     @property
     def flags(self) -> tuple[str, ...]:
@@ -189,10 +173,9 @@ class Problem:
             **dict.fromkeys((*bogie_keys(self.bogie.kind), "gravitational_stiffness"), "bogie"),
         }
         if body:
-            allowed |= dict.fromkeys(("K_2z", "C_2z"), "car_body")
+            allowed |= dict.fromkeys(VERTICAL, "car_body")
         if key not in allowed:
-            known = key in MOTOR_KEYS or key in PARAMETERS
-            raise ProblemError(self._why_absent(key) if known else unknown_key(key, allowed))
+            raise ProblemError(why_absent(key, self.bogie.kind, self.parameters(), allowed))
         return allowed[key]
 
     def to_dict(self) -> dict[str, Any]:
@@ -201,6 +184,7 @@ class Problem:
         plain["bogie"] = {"kind": self.bogie.kind} | _given(self.bogie)
         if self.car_body is not None:
             plain["car_body"] = _given(self.car_body)
+        plain["cases"] = {case.name: {change.key: change.written for change in case.changes} for case in self.cases}
         return plain
 
 
@@ -209,9 +193,7 @@ _PARTS: Mapping[str, Any] = {"bogie": Bogie, "car_body": CarBody | None, "curve"
 
 def _given(part: Bogie | CarBody) -> dict[str, Any]:
     """Return what was given of a part, by key."""
-    rows = BOGIE if isinstance(part, Bogie) else CAR_BODY
-    values = {key: getattr(part, field_name(key)) for key in rows}
-    found = {key: "rigid" if value == RIGID else float(value) for key, value in values.items() if value is not None}
+    found = {key: "rigid" if value == RIGID else float(value) for key, value in given_of(part).items()}
     switches = {"gravitational_stiffness": True, "overturning": False}
     return found | {key: getattr(part, key) for key, usual in switches.items() if getattr(part, key, usual) != usual}
 

@@ -4,11 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
+from .cases import BOGIES
 from .file_shape import problem_model
-from .parameters import MOTOR_KEYS, PARAMETERS, parameter_keys
+from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, ROLL_KEYS, VERTICAL, parameter_keys
 
 _TRAILER = {"required": ["kind"], "properties": {"kind": {"const": "trailer"}}}
 _PRESET = {"required": ["base"]}
+_SHARE = {
+    "type": "string",
+    "pattern": r"^\s*\d[\d _.]*\s*%\s*$",
+    "description": "Share of the value as designed.",
+    "examples": ["50 %"],
+}
 SCHEMA_FILE = "problem.schema.json"  # the name that the first line of a problem file refers to
 
 
@@ -35,7 +42,11 @@ def schema() -> dict[str, Any]:
     bogie = found["$defs"]["Bogie"]
     bogie.pop("required")
     bogie["allOf"] = _bogie_rules()
-    found["allOf"] = [_variables_rule()]
+    body = found["$defs"]["CarBody"]
+    body["allOf"] = [{"if": _PRESET, "else": {"required": body.pop("required")}}]
+    found["properties"]["cases"] |= _cases()
+    found["$defs"]["share"] = _SHARE
+    found["allOf"] = [_variables_rule(), _car_body_rule()]
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **found, "title": "yawdesign problem"}
 
 
@@ -64,12 +75,34 @@ def _shared(part: Any, texts: dict[str, Any]) -> Any:
 
 def _bogie_rules() -> list[dict[str, Any]]:
     """Return which parameters must be there: none with a preset, those of the motors only where there are motors."""
-    always = [key for key in parameter_keys("trailer") if not PARAMETERS[key].optional]
+    always = [key for key in parameter_keys("trailer") if not BOGIE[key].optional]
     motors = {"if": _PRESET, "else": {"required": list(MOTOR_KEYS)}}
+    own = [key for key in ROLL_KEYS if key not in VERTICAL]
+    together = {key: [other for other in own if other != key] for key in own} | {"K_d1x": ["C_1x"], "K_d1y": ["C_1y"]}
     return [
         {"if": _PRESET, "else": {"required": always}},
         {"if": _TRAILER, "then": {"properties": dict.fromkeys(MOTOR_KEYS, False)}, "else": motors},
+        {"dependentRequired": together},
     ]
+
+
+def _car_body_rule() -> dict[str, Any]:
+    """Return what a car body excludes, and where the vertical stiffness of a rolling frame stands without one."""
+    apart = {"bogie": {"properties": dict.fromkeys(VERTICAL, False)}, "equations": {"const": "reciprocal"}}
+    together = {"I_b": list(VERTICAL)} | {key: ["I_b"] for key in VERTICAL}
+    alone = {"bogie": {"dependentRequired": together}}
+    return {"if": {"required": ["car_body"]}, "then": {"properties": apart}, "else": {"properties": alone}}
+
+
+def _cases() -> dict[str, Any]:
+    """Return what faults may be: changes of parameters of both bogies, of the car body, or of one bogie."""
+    places = {key: f"#/$defs/Bogie/properties/{key}" for key in BOGIE}
+    places |= {key: f"#/$defs/CarBody/properties/{key}" for key in CAR_BODY}
+    values = {key: {"anyOf": [{"$ref": "#/$defs/share"}, {"$ref": place}]} for key, place in places.items()}
+    same = "#/properties/cases/additionalProperties/properties"
+    of_one = {f"{bogie}.{key}": {"$ref": f"{same}/{key}"} for bogie in BOGIES for key in BOGIE}
+    changes = {"type": "object", "minProperties": 1, "additionalProperties": False, "properties": values | of_one}
+    return {"type": "object", "additionalProperties": changes}
 
 
 def _variables_rule() -> dict[str, Any]:

@@ -1,12 +1,14 @@
-"""A problem file to start from: Table I, written out and explained."""
+"""A problem file to start from: Table I, written out and explained, and a car body on it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from itertools import groupby
 
+from .consistency import fitting_axle_load
 from .diagnostics import Mistakes
-from .parameters import KINDS, PARAMETERS, parameter_keys
+from .parameters import ADDED, BOGIE, CAR_BODY, KINDS, VERTICAL, parameter_keys
 from .running import CURVE
 from .table import Parameter, as_choice
 from .variables import DEFAULT_BOUNDS, default_variables
@@ -28,11 +30,31 @@ equations: reciprocal
 
 bogie:
   kind: {kind:<22} # power: two motors hung on the frame; trailer: no motors, and none of their keys
-  # base: table1               # a preset; then only the keys that differ from it need to be written
-"""
+  # base: table1               # a preset; then only the keys that differ from it need to be written"""
+
+_OPTIONAL = """\
+  # What Table I does not have, and a bogie may. A joint may be `rigid`.
+
+{lines}
+  # gravitational_stiffness: false # the axle load does not centre the wheelsets; the curve's formula has it still"""
+
+_CAR_BODY = """\
+# The car body, on two such bogies: it moves laterally, yaws and rolls. Without this part it stands still.
+# The answers part where conicity is low or creep is reduced: the car body's sway joins the motion of the bogies.
+car_body:
+  # base: huo-dai              # a preset; then only the keys that differ from it need to be written
+{lines}
+  overturning: false           # true: the weight of the rolled car body acts, -M_c g h_s on its roll"""
+
+_CASES = """\
+# Faults that must be survived. A percentage is a share of the value as designed; otherwise a value with its unit.
+# cases:
+#   one yaw damper lost: {C_s: 50 %, K_ds: 50 %}"""
+_OF_ONE_BOGIE = """
+#   one yaw damper of the leading bogie lost: {leading.C_s: 50 %, leading.K_ds: 50 %}
+#   lateral dampers of the trailing bogie lost: {trailing.C_t: 0 %}"""
 
 _TAIL = """\
-
 # The running speed, or a range of which every speed must be stable:
 # speed: {{min: 200 km/h, max: 300 km/h, steps: 11}}
 speed: 300 km/h
@@ -42,20 +64,24 @@ curve:
 {curve}
   load: axle                   # Q is the axle load W (axle) or the wheel load W/2 (wheel, as railway standards have it)
 
+{cases}
+
 design:
   objective: decay_rate        # make the least decay rate [1/s] as large as possible, or the least damping_ratio [-]
-  variables:                   # what may be changed; any parameter of the bogie may stand here
+  variables:                   # what may be changed; any parameter {of} may stand here
 {variables}
 """
 
 
-def starter(kind: str = "power") -> str:
+def starter(kind: str = "power", *, car_body: bool = False) -> str:
     """Return a commented problem file to start from.
 
     Parameters
     ----------
     kind : {"power", "trailer"}
         With or without motors.
+    car_body : bool
+        Whether a car body moves on two such bogies; the axle load is then that of this vehicle.
 
     Returns
     -------
@@ -70,24 +96,38 @@ def starter(kind: str = "power") -> str:
     with (mistakes := Mistakes()).under("kind"):
         as_choice(kind, KINDS)
     mistakes.report()
-    head = _HEAD.format(title=f"A {kind} bogie", kind=kind)
-    curve = "\n".join(_line(row, row.example) for row in CURVE.values())
-    variables = "\n".join(_variable(key) for key in default_variables(kind))
-    return f"{head}{bogie_lines(kind)}\n{_TAIL.format(curve=curve, variables=variables)}"
+    title = f"A car body on two {kind} bogies" if car_body else f"A {kind} bogie"
+    tail = _TAIL.format(
+        curve=_lines(CURVE.values()),
+        cases=_CASES + (_OF_ONE_BOGIE if car_body else ""),
+        of="of bogie and car body" if car_body else "of the bogie",
+        variables="\n".join(_variable(key) for key in default_variables(kind)),
+    )
+    body = [_CAR_BODY.format(lines=_lines(CAR_BODY.values()))] if car_body else []
+    return "\n\n".join([_HEAD.format(title=title, kind=kind), _bogie_lines(kind, car_body=car_body), *body, tail])
 
 
-def bogie_lines(kind: str) -> str:
-    """Return the values of Table I as commented lines, in groups."""
-    rows = (PARAMETERS[key] for key in parameter_keys(kind))
-    return "\n".join(_group(title, of_group) for title, of_group in groupby(rows, key=lambda row: row.group))
+def _bogie_lines(kind: str, *, car_body: bool) -> str:
+    """Return the values of Table I as commented lines, in groups, and what else there may be as lines to uncomment."""
+    load = {"W": _axle_load(kind)} if car_body else {}
+    rows = [replace(BOGIE[key], source=load.get(key, BOGIE[key].source)) for key in parameter_keys(kind)]
+    more = [BOGIE[key] for key in ADDED if not (car_body and key in VERTICAL)]
+    return "\n\n".join([*_groups(rows), _OPTIONAL.format(lines="\n\n".join(_groups(more, mark="# ")))])
 
 
-def _group(title: str, rows: Iterable[Parameter]) -> str:
-    return "\n".join([f"\n  # {title}", *(_line(row, row.example) for row in rows)])
+def _axle_load(kind: str) -> str:
+    """Return the axle load of the vehicle with the values of both tables, rounded to kilonewtons, as a source."""
+    values = {row.key: row.check(row.example) for row in (*BOGIE.values(), *CAR_BODY.values())}
+    return f"{round(fitting_axle_load(values, kind) / 1e3)} 000"
 
 
-def _line(row: Parameter, value: str) -> str:
-    return f"  {f'{row.key}: {value}':<28} # {row.meaning}"
+def _groups(rows: Iterable[Parameter], mark: str = "") -> Iterator[str]:
+    for title, of_group in groupby(rows, key=lambda row: row.group):
+        yield f"  # {title}\n{_lines(of_group, mark)}"
+
+
+def _lines(rows: Iterable[Parameter], mark: str = "") -> str:
+    return "\n".join(f"  {f'{mark}{row.key}: {row.example}':<28} # {row.meaning}" for row in rows)
 
 
 def _variable(key: str) -> str:

@@ -73,6 +73,11 @@ class Parameter:
         """The value of the paper as it may be written in a file."""
         return f"{self.source} {self.unit.strip('-')}".strip()
 
+    @property
+    def finite(self) -> Parameter:
+        """The same row for values that must be numbers: bounds, and values in faults."""
+        return replace(self, rigid=False)
+
     def check(self, value: object) -> Any:
         """Return a number or a text with a unit as an SI number inside the hard range, or infinity if it is rigid.
 
@@ -86,7 +91,7 @@ class Parameter:
         number = as_quantity(value, self.unit, self.si)
         low, high = map(exact, self.hard)
         if not low <= number.exact <= high:
-            raise ProblemError(f"{_shown(value)} is outside {self.range_text(self.hard, _unit_of(value))}")
+            raise ProblemError(f"{shown(value)} is outside {self.range_text(self.hard, _unit_of(value))}")
         return number
 
     def accept(self, value: object, *, doubtful: bool = False) -> Any:
@@ -104,10 +109,11 @@ class Parameter:
         """Return why an accepted value is unusual or may have been meant in another unit, or None."""
         if self._is_bare(value):
             return self._read_as(value)
-        if self._is_usual(self.check(value)):
+        number = self.check(value)
+        if self._is_usual(number) or number == RIGID:
             return None
         usual = self.range_text(self.usual, _unit_of(value))
-        return f"{_shown(value)} is unusual, {usual} is common: are value and unit right?"
+        return f"{shown(value)} is unusual, {usual} is common: are value and unit right?"
 
     def _is_usual(self, number: float) -> bool:
         return self.usual[0] <= number <= self.usual[1]
@@ -117,10 +123,10 @@ class Parameter:
         return self.unit == "km/h" and not isinstance(value, Written) and not _unit_of(value)
 
     def _read_as(self, value: object) -> str:
-        number, bare = self.check(value), _shown(value)
+        number, bare = self.check(value), shown(value)
         usual = "" if self._is_usual(number) else f"; {self.range_text(self.usual, self.unit)} is common"
-        shown = f"{bare} is read as {bare} {self.si}, which is {format_quantity(number, self.unit)}{usual}"
-        return f"{shown}: write {bare} {self.unit}, or {bare} {self.si} if that is meant"
+        read = f"{bare} is read as {bare} {self.si}, which is {format_quantity(number, self.unit)}{usual}"
+        return f"{read}: write {bare} {self.unit}, or {bare} {self.si} if that is meant"
 
     def range_text(self, ends: Range, unit: str = "") -> str:
         """Return a range as a text in a unit, SI if none is given."""
@@ -151,9 +157,9 @@ def check_end(value: object, row: Parameter, low: Written | None) -> Any:
     if low is None or low.exact < high.exact:
         return high
     if low.exact == high.exact:
-        raise ProblemError(f"{_shown(value)} makes an empty range: min is the same")
+        raise ProblemError(f"{shown(value)} makes an empty range: min is the same")
     least = format_quantity(low, _unit_of(value) or row.si)
-    raise ProblemError(f"{_shown(value)} is less than min, which is {least}")
+    raise ProblemError(f"{shown(value)} is less than min, which is {least}")
 
 
 def check_ends(low: object, high: object, row: Parameter) -> tuple[Written, Written]:
@@ -189,13 +195,13 @@ def as_quantity(value: object, unit: str, si: str = "") -> Written:
     if value is None:
         raise ProblemError(f"has no value, expected a number in {si or si_unit(unit)} or a text with a unit")
     if isinstance(value, bool) or not isinstance(value, Real):
-        raise ProblemError(f"{_shown(value)} is not a number, expected {kind_of(unit)} in {si or si_unit(unit)}")
+        raise ProblemError(f"{shown(value)} is not a number, expected {kind_of(unit)} in {si or si_unit(unit)}")
     try:
         number = Written(value if isinstance(value, Written) else exact(value))  # type: ignore[arg-type]
     except (ValueError, OverflowError):
-        raise ProblemError(f"{_shown(value)} is not a finite number") from None
+        raise ProblemError(f"{shown(value)} is not a finite number") from None
     if max(number.exact.numerator.bit_length(), number.exact.denominator.bit_length()) > MOST_BITS:
-        raise ProblemError(f"{_shown(value)} has too many digits to compute with")
+        raise ProblemError(f"{shown(value)} has too many digits to compute with")
     return number
 
 
@@ -208,16 +214,14 @@ def as_several(value: Any) -> list[Any]:
 
 
 def _is_rigid(value: object) -> bool:
-    if isinstance(value, str):
-        return value.strip() == "rigid"
-    return isinstance(value, float) and value == RIGID
+    return value.strip() == "rigid" if isinstance(value, str) else isinstance(value, Real) and value == RIGID
 
 
 def as_switch(value: object) -> bool:
     """Return `value` if it is true or false."""
     if isinstance(value, bool):
         return value
-    raise ProblemError(f"{_shown(value)} is neither true nor false")
+    raise ProblemError(f"{shown(value)} is neither true nor false")
 
 
 def as_choice(value: object, choices: Collection[str]) -> str:
@@ -225,14 +229,14 @@ def as_choice(value: object, choices: Collection[str]) -> str:
     if isinstance(value, str) and value in choices:
         return value
     near = suggestion(value, choices) if isinstance(value, str) else ""
-    raise ProblemError(f"{_shown(value)} is not one of: {', '.join(choices)}{near}")
+    raise ProblemError(f"{shown(value)} is not one of: {', '.join(choices)}{near}")
 
 
 def as_count(value: object, low: int, high: int) -> int:
     """Return a whole number from `low` to `high`."""
     number = as_quantity(value, "-").exact
     if number.denominator != 1 or not low <= number <= high:
-        raise ProblemError(f"{_shown(value)} is not a whole number from {low} to {high}")
+        raise ProblemError(f"{shown(value)} is not a whole number from {low} to {high}")
     return int(number)
 
 
@@ -247,10 +251,10 @@ def as_seed(value: object) -> int | None:
 def as_text(value: object) -> str:
     """Return a text of one line, without control characters."""
     if not isinstance(value, str):
-        raise ProblemError(f"{_shown(value)} is not a text")
+        raise ProblemError(f"{shown(value)} is not a text")
     text = value.removesuffix("\n")  # with which a YAML block ends
     if len(text) > LONGEST_TEXT:
-        raise ProblemError(f"{_shown(value)} is longer than {LONGEST_TEXT} characters")
+        raise ProblemError(f"{shown(value)} is longer than {LONGEST_TEXT} characters")
     why = refusal(text)
     if why:
         raise ProblemError(why)
@@ -277,7 +281,8 @@ def documented(cls: type[T]) -> type[T]:
     return cls
 
 
-def _shown(value: object) -> str:
+def shown(value: object) -> str:
+    """Return a value as messages repeat it."""
     if value is None:
         return "no value"
     if isinstance(value, bool):

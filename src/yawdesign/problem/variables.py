@@ -113,4 +113,4 @@ def _checked_variable(key: object, variable: object) -> Variable:
         raise ProblemError(unknown_key(str(key), PARAMETERS))
     if not isinstance(variable, Variable):
         raise ProblemError(f"{variable!r} is not a Variable(min=..., max=...)")
-    return variable.checked(PARAMETERS[key])
+    return variable.checked(PARAMETERS[key].finite)

@@ -1,0 +1,99 @@
+"""What the parts of a problem allow together: bogie, car body, equations, curve, design variables and cases."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from itertools import chain
+
+from .cases import Case, outside
+from .diagnostics import Diagnostic, unknown_key
+from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, PARAMETERS, VERTICAL
+from .table import RIGID
+
+GRAVITY = 9.80665  # [m/s^2], the standard acceleration of free fall
+Values = Mapping[str, float | None]  # what is given of a part, by key; None where the value is not known
+
+
+def misfits(
+    *,
+    kind: str,
+    equations: object,
+    bogie: Values,
+    car_body: Values | None,
+    curve: bool,
+    variables: Iterable[str],
+    cases: Iterable[Case],
+) -> Iterator[Diagnostic]:
+    """Yield what does not fit together, by dotted names.
+
+    Parameters
+    ----------
+    kind, equations : str
+        Of the bogie, and of the problem.
+    bogie, car_body : mapping of str to float or None
+        What is given of each, in SI; no car body: it stands still.
+    curve : bool
+        Whether there is a curve.
+    variables : iterable of str
+        Keys of the design variables.
+    cases : iterable of Case
+        The faults.
+    """
+    yield from _vertical_suspension(bogie, car_body)
+    if car_body is not None and equations == "as-printed":
+        text = "the printed equations have no car body: write reciprocal, or remove car_body"
+        yield Diagnostic(key="equations", message=text)
+    if car_body is not None and "l_c" not in car_body and not curve:
+        text = "is missing: give half the distance of the bogie centres, or a curve with L"
+        yield Diagnostic(key="car_body.l_c", message=text)
+    given = {**bogie, **(car_body or {})}
+    for key in variables:
+        if key not in present(given):
+            yield Diagnostic(key=f"design.variables.{key}", message=why_absent(key, kind, given))
+    yield from chain.from_iterable(_of_case(case, kind, given, car_body is not None) for case in cases)
+
+
+def _vertical_suspension(bogie: Values, car_body: Values | None) -> Iterator[Diagnostic]:
+    for key in VERTICAL:
+        text = ""
+        if car_body is not None:
+            text = "belongs under car_body, where there is one" if key in bogie else ""
+        elif (key in bogie) != ("I_b" in bogie):
+            text = "belongs to roll: I_b is missing" if key in bogie else "is missing: roll of the frame (I_b) needs it"
+        if text:
+            yield Diagnostic(key=f"bogie.{key}", message=text)
+
+
+def _of_case(case: Case, kind: str, given: Values, has_car_body: bool) -> Iterator[Diagnostic]:
+    for change in case.changes:
+        text = ""
+        if change.parameter != change.key and not has_car_body:
+            text = "there is one bogie where the car body stands still: give a car_body, or write " + change.parameter
+        elif change.parameter not in present(given):
+            text = why_absent(change.parameter, kind, given)
+        if text:
+            yield Diagnostic(key=f"cases.{case.name}.{change.key}", message=text)
+    for found in outside(case, {key: value for key, value in given.items() if key in present(given)}):
+        yield Diagnostic(key=f"cases.{found.key}", message=found.message)
+
+
+def present(given: Values) -> tuple[str, ...]:
+    """Return the names of the parameters of a vehicle, C_s among them, in the order of the table."""
+    return tuple(key for key in PARAMETERS if key == "C_s" or given.get(key, RIGID) != RIGID)
+
+
+def why_absent(key: str, kind: str, given: Values, known: Collection[str] = ()) -> str:
+    """Return why a vehicle has no parameter of this name."""
+    if key in MOTOR_KEYS and kind == "trailer":
+        return NO_MOTOR
+    if given.get(key) == RIGID:
+        return "is rigid here: give its stiffness first"
+    if key in PARAMETERS:
+        part = "car_body" if key in CAR_BODY and key not in BOGIE else "bogie"
+        return f"is not part of this vehicle: give its value under {part} first"
+    return unknown_key(key, known or present(given))
+
+
+def fitting_axle_load(p: Mapping[str, float], kind: str) -> float:
+    """Return a quarter of the weight of a car body, two bogie frames, four wheelsets and the motors, if any [N]."""
+    return GRAVITY * (p["M_c"] + 2 * p["M_b"] + 4 * p["M_w"] + (4 * p["M_m"] if kind == "power" else 0)) / 4

@@ -1,0 +1,88 @@
+"""What is accepted in a problem file and may still be a slip: unusual values, and parts that do not match."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from .consistency import fitting_axle_load
+from .document import Path
+from .parameters import BOGIE, CAR_BODY, PARAMETERS
+from .problem import Problem
+from .quantities import exact, format_quantity
+from .running import CURVE, SPEED
+from .table import Parameter
+
+MOST_APART = 0.1  # of the axle loads from the weight
+# Kalker's coefficients allow a lateral creep coefficient at most 1.1 times the longitudinal one (nu = 0.25).
+MOST_LATERAL = 1.15
+
+
+def doubts(problem: Problem, data: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
+    """Yield the place and the text of each doubt about a problem, from it and from what was written."""
+    for path, row, value in _written_values(data):
+        doubt = row.doubt(value)
+        if doubt:
+            yield path, doubt
+    yield from _weight(problem, data)
+    yield from _pivots(problem, data)
+    yield from _creep(problem, data)
+
+
+def _written_values(data: Mapping[str, Any]) -> Iterator[tuple[Path, Parameter, Any]]:
+    """Yield path, table row and value of every quantity that stands in the text."""
+    for part, rows in (("bogie", BOGIE), ("car_body", CAR_BODY), ("curve", CURVE)):
+        for key, value in data.get(part, {}).items():
+            if key in rows:
+                yield (part, key), rows[key], value
+    speed = data["speed"]
+    ends = {("speed", end): speed[end] for end in ("min", "max")} if isinstance(speed, dict) else {("speed",): speed}
+    yield from ((path, SPEED, value) for path, value in ends.items())
+    for key, bounds in data.get("design", {}).get("variables", {}).items():
+        for end, value in bounds.items():
+            yield ("design", "variables", key, end), PARAMETERS[key], value
+
+
+def _weight(problem: Problem, data: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
+    """Doubt an axle load that is not a quarter of the weight."""
+    if problem.car_body is None:
+        return
+    kind, W = problem.bogie.kind, problem.bogie.W
+    fitting = fitting_axle_load(problem.parameters(), kind)
+    if abs(W - fitting) <= MOST_APART * fitting:
+        return
+    parts = "car body, two bogie frames, four wheelsets" + (" and four motors" if kind == "power" else "")
+    text = (
+        f"{_kN(W)} on each of four axles is {_kN(4 * W)}, but {parts} weigh {_kN(4 * fitting)}: "
+        f"W = {_kN(fitting)} would carry them"
+    )
+    yield ("bogie", "W") if "W" in data["bogie"] else ("car_body",), text
+
+
+def _kN(force: float) -> str:
+    return format_quantity(force, "kN", digits=4)
+
+
+def _pivots(problem: Problem, data: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
+    """Doubt bogie centres that are elsewhere in the curve."""
+    if problem.car_body is None or problem.curve is None or problem.car_body.l_c is None:
+        return
+    l_c, L = exact(problem.car_body.l_c), exact(problem.curve.L)
+    if 2 * l_c != L:
+        text = f"{format_quantity(float(l_c), 'm')} is not half of curve.L, {format_quantity(float(L), 'm')}"
+        yield _place(data, "car_body", "l_c"), f"{text}: the curve uses L, the motion of the car body l_c"
+
+
+def _creep(problem: Problem, data: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
+    """Doubt a lateral creep coefficient that is much larger than the longitudinal one."""
+    f_11, f_22 = problem.bogie.f_11, problem.bogie.f_22
+    if f_11 > MOST_LATERAL * f_22:
+        text = (
+            f"{_kN(f_11)} is {f_11 / f_22:.3g} times f_22: are the two swapped? Here f_11 is lateral and f_22 "
+            "longitudinal, elsewhere often the other way round"
+        )
+        yield _place(data, "bogie", "f_11"), text
+
+
+def _place(data: Mapping[str, Any], part: str, key: str) -> Path:
+    return (part, key) if key in data[part] else (part,)

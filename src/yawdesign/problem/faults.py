@@ -1,0 +1,183 @@
+"""The mistakes in the data of a problem file: what is wrong, and at which place."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import chain
+from typing import Any
+
+from pydantic import ValidationError
+
+from .cases import read_cases
+from .consistency import Values, misfits
+from .diagnostics import Diagnostic, ProblemError, nearest, suggestion
+from .document import Path
+from .file_shape import SWITCHES
+from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, bogie_keys, incomplete, parameter_keys
+from .running import CURVE
+from .table import Parameter
+
+_NO_ROBUST = "robust design is not part of this version: remove this key to get the answer for the nominal problem"
+_TAGS = ("<range>", "<value>")
+_TOP = ("title", "equations", "bogie", "car_body", "speed", "curve", "cases", "design")
+_ROWS: Mapping[str, Mapping[str, Parameter]] = {"bogie": BOGIE, "car_body": CAR_BODY, "curve": CURVE}
+_AT_KEY = ("bogie", "car_body", "design")  # where parts do not fit together, it is a key that should not be there
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A mistake by its place in the data; `at_key` if it is the key that is wrong and not the value."""
+
+    path: Path
+    message: str
+    at_key: bool = False
+
+
+def dotted(path: Path) -> str:
+    """Return a path as shown in messages, such as ``bogie.K_ds``; long names are cut."""
+    return ".".join(str(part)[:60] for part in path)
+
+
+def faults(error: ValidationError, kind: str) -> Iterator[Fault]:
+    """Yield all mistakes that pydantic found in a problem with a bogie of this kind."""
+    all_found = [(found, _path(found["loc"])) for found in error.errors(include_url=False)]
+    meant = {_meant(path, kind) for found, path in all_found if found["type"] == "extra_forbidden"}
+    for found, path in all_found:
+        if found["type"] != "missing" or path not in meant:
+            yield from _told(found, path, kind)
+
+
+def disagreements(data: Mapping[str, Any], kind: str) -> Iterator[Fault]:
+    """Yield what does not fit together in data that have other mistakes: these are left out."""
+    bogie, car_body = _known("bogie", data, kind), _known("car_body", data, kind) if "car_body" in data else None
+    design = data.get("design")
+    variables = design.get("variables") if isinstance(design, dict) else ()
+    known = (*bogie_keys(kind), *CAR_BODY)
+    found = misfits(
+        kind=kind,
+        equations=data.get("equations"),
+        bogie=bogie,
+        car_body=car_body,
+        curve="curve" in data,
+        variables=[key for key in known if isinstance(variables, dict) and key in variables],
+        cases=read_cases(data["cases"])[0] if "cases" in data else (),
+    )
+    yield from placed(data, chain(incomplete(bogie), found))
+
+
+def _known(part: str, data: Mapping[str, Any], kind: str) -> Values:
+    """Return what is given of a part, or must be; None where it is missing or wrong, which is told elsewhere."""
+    written = data.get(part)
+    given = written if isinstance(written, dict) else {}
+    known: dict[str, float | None] = {}
+    for name, value in given.items():
+        path = (part, name) if name in _ROWS[part] else _meant((part, name), kind)
+        row = _ROWS[part].get(str(path[-1])) if path[:-1] == (part,) else None
+        if row:
+            known[row.key] = _checked(row, value)
+    always = parameter_keys(kind) if part == "bogie" else [key for key, row in CAR_BODY.items() if not row.optional]
+    return dict.fromkeys(always, None) | known
+
+
+def _checked(row: Parameter, value: object) -> float | None:
+    try:
+        return float(row.check(value))
+    except ProblemError:
+        return None
+
+
+def placed(data: Mapping[str, Any], found: Iterable[Diagnostic]) -> list[Fault]:
+    """Return diagnostics as faults, with their places in the data."""
+    paths = [(_named(data, each.key), each.message) for each in found]
+    return [Fault(path, message, at_key=path[:1] != () and path[0] in _AT_KEY) for path, message in paths]
+
+
+def _named(data: object, name: str) -> Path:
+    """Return the path of a dotted name; keys may have points in them."""
+    inner = data if isinstance(data, dict) else {}
+    for key in sorted(inner, key=len, reverse=True):
+        if name == key:
+            return (key,)
+        if name.startswith(f"{key}."):
+            return (key, *_named(inner[key], name.removeprefix(f"{key}.")))
+    return tuple(name.split(".")) if name else ()
+
+
+def _meant(path: Path, kind: str) -> Path:
+    """Return the path that a misspelt or misplaced key was meant to be: it is not reported as missing too."""
+    around, key = path[:-1], str(path[-1])
+    home = _home(key, around, kind)
+    if home is not None:
+        return (*home, key)
+    name = nearest(key, _allowed(around, kind))
+    return (*around, name) if name else ()
+
+
+def _home(key: str, around: Path, kind: str) -> Path | None:
+    """Return the part of a problem to which a key belongs that stands in another."""
+    if len(around) > 1:
+        return None
+    places: tuple[Path, ...] = ((), *((part,) for part in _ROWS))
+    return next((place for place in places if place != around and key in _allowed(place, kind)), None)
+
+
+def _path(loc: tuple[int | str, ...]) -> Path:
+    """Return the path in the file: pydantic also names the branch it took where a speed may be a range."""
+    return loc[:1] + loc[2:] if loc[:1] == ("speed",) and loc[1:2] and loc[1] in _TAGS else loc
+
+
+def _told(found: Any, path: Path, kind: str) -> Iterator[Fault]:
+    match found["type"]:
+        case "value_error":
+            for each in found["ctx"]["error"].diagnostics:
+                yield Fault((*path, *_named(found["input"], each.key)), each.message)
+        case "missing":
+            yield Fault(path, f"is missing{_meaning(path)}", at_key=True)
+        case "extra_forbidden":
+            yield Fault(path, _unknown(path, kind), at_key=True)
+        case _:
+            value = found["input"]
+            what = "has no value" if value is None else "is not what stands here"
+            yield Fault(path, f"{what}, expected keys and values: {', '.join(_allowed(path, kind)[:4])} ...")
+
+
+def _meaning(path: Path) -> str:
+    row = _ROWS.get(str(path[0]), {}).get(str(path[-1])) if len(path) == 2 else None
+    return f": {row.meaning}, such as {row.example}" if row else ""
+
+
+def _unknown(path: Path, kind: str) -> str:
+    key, around = str(path[-1]), path[:-1]
+    if path == ("robust",):
+        return _NO_ROBUST
+    if kind == "trailer" and key in MOTOR_KEYS and around in (("bogie",), ("design", "variables")):
+        return NO_MOTOR
+    home = _home(key, around, kind)
+    if home is not None:
+        place = f"under {dotted(home)}" if home else f"beside {dotted(around)}, not in it"
+        return f"is not a known key here; it belongs {place}"
+    allowed = _allowed(around, kind)
+    near = suggestion(key, allowed)
+    return f"is not a known key{near}" if near else f"is not a known key; known here: {', '.join(allowed)}"
+
+
+def _allowed(around: Path, kind: str) -> tuple[str, ...]:
+    """Return the keys that may stand at a place."""
+    match around:
+        case ():
+            return _TOP
+        case ("bogie",):
+            return ("kind", "base", *bogie_keys(kind), *SWITCHES["bogie"])
+        case ("car_body",):
+            return ("base", *CAR_BODY, *SWITCHES["car_body"])
+        case ("curve",):
+            return (*CURVE, "load")
+        case ("speed",):
+            return ("min", "max", "steps")
+        case ("design",):
+            return ("objective", "variables")
+        case ("design", "variables"):
+            return tuple(dict.fromkeys((*bogie_keys(kind), *CAR_BODY)))
+        case _:
+            return ("min", "max")
