@@ -7,8 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from yawdesign.hunting.certificate import certify
 from yawdesign.hunting.critical_damping import critical_damping
 from yawdesign.hunting.eigenvalues import count_undamped, motion_eigenvalues
+from yawdesign.hunting.exact import exact_critical_values
 from yawdesign.problem.cases import Case, Change
 from yawdesign.vehicle.vehicle import Model
 
@@ -33,6 +35,48 @@ def test_reference_vehicles(reference):
     assert [x.omega for x in found.critical] == pytest.approx(reference["omega"], rel=1e-10)
     assert list(found.unstable_roots) == reference["unstable_roots_per_interval"]
     assert found.checked
+
+
+@pytest.mark.parametrize("reference", REFERENCE[4:8], ids=lambda c: c["name"])
+@pytest.mark.parametrize("route", [certify, lambda vehicle: exact_critical_values(vehicle)], ids=["flint", "decimals"])
+def test_exact_answers(reference, route):
+    vehicle = vehicle_of(reference)
+    fast, proved = critical_damping(vehicle), route(vehicle)
+    values = [float(x.C_s if route is certify else x[0]) for x in proved.critical]
+    assert [x.C_s for x in fast.critical] == pytest.approx(values, rel=1e-11)
+    assert fast.unstable_roots == proved.unstable_roots
+
+
+def random_vehicles(n, spread, seed):
+    rng = np.random.default_rng(seed)
+    for _ in range(n):
+        reference = REFERENCE[rng.choice([4, 6])]
+        p = {**reference["bogie"], **reference["car_body"]}
+        yield vehicle_of(
+            {**reference, "speed_kmh": rng.uniform(150, 450)},
+            **{name: value * spread ** rng.uniform(-1, 1) for name, value in p.items()},
+        )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("n", "spread", "seed"), [(30, 1.5, 1), (30, 3, 2), (10, 10, 3)])
+def test_random_vehicles_against_certificates(n, spread, seed):
+    values = 0
+    for vehicle in random_vehicles(n, spread, seed):
+        found, proved = critical_damping(vehicle), certify(vehicle)
+        assert found.unstable_roots == proved.unstable_roots
+        assert [x.C_s for x in found.critical] == pytest.approx([x.C_s for x in proved.critical], rel=1e-9)
+        assert [x.omega for x in found.critical] == pytest.approx([x.omega for x in proved.critical], rel=1e-9)
+        assert found.checked
+        values += len(found.critical)
+    assert values > n
+
+
+def test_no_yaw_damper_at_all():
+    none = Case("none", tuple(Change(f"{bogie}.C_s", 0.0, True) for bogie in ("leading", "trailing")))
+    found = critical_damping(table_1().with_fault(none))
+    assert found.critical == ()
+    assert found.unstable_roots == critical_damping(table_1()).unstable_roots[:1]
 
 
 def table_1(**changes):

@@ -1,4 +1,4 @@
-"""All values of C_s at which two eigenvalues of a vehicle are opposite to each other: a pair on the imaginary axis, or s and -s.
+"""All values of C_s at which two eigenvalues are opposite to each other: a pair on the imaginary axis, or s and -s.
 
 With mu = 1/C_s the state matrix is A(mu), linear in mu but for the yaw dampers' few channels. Two eigenvalues add up to
 zero exactly where the Kronecker sum of A with itself is singular. From one place mu_0 that is an eigenvalue problem,
@@ -9,7 +9,7 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.hunting.eigenvalues import motion_matrix
-from yawdesign.vehicle.elements import Link, Maxwell
+from yawdesign.vehicle.elements import Link, Mass
 from yawdesign.vehicle.vehicle import Vehicle
 
 REAL = 1e-3  # largest angle of what counts as real: two values that nearly coincide come with imaginary parts
@@ -66,15 +66,15 @@ def _channels(vehicle: Vehicle) -> tuple[Float, Float, Float, Float]:
         if link.varied:
             own = place[2 * half + k]
             columns.append((np.eye(len(A))[own], A[own] * C_s, 0.0))  # the row of the stroke is a multiple of mu
-    masses = {mass.coordinate: mass.m for mass in system.owners[:half]}
+    masses = {e.coordinate: e for e in system.elements if isinstance(e, Mass)}
     for link in system.elements:
-        if isinstance(link, Link) and link.varied and not isinstance(link.laws[0], Maxwell) and link.laws[0].c:
+        if isinstance(link, Link) and link.varied and link.share and not link.maxwell:  # a joint that is rigid
             push, rate = np.zeros((2, len(A)))
-            for x, g in link.displacement.items():
+            for x, mass in masses.items():
                 if x in coupled.coordinates:
-                    rate[place[half + system.coordinates.index(x)]] = g * link.laws[0].c
-            for x, g in link.force.items():
-                push[place[half + system.coordinates.index(x)]] = g / masses[x] * C_s
+                    own = place[half + system.coordinates.index(x)]
+                    push[own] = link.force.get(x, 0) / mass.m * C_s
+                    rate[own] = link.displacement.get(x, 0) * link.share * C_s
             columns.append((push, rate, -C_s))
     P, Q, D = (np.array(part) for part in zip(*columns, strict=True))
     return A, P.T, Q, np.diag(D)

@@ -61,8 +61,13 @@ class Receptance:
         self._displacement = [self._row(e.displacement) for e in dampers]
         self._force = [self._row(e.force) for e in dampers]
 
+    @property
+    def size(self) -> int:
+        """Number m of links of yaw dampers that are there."""
+        return len(self._shares)
+
     def at(self, s: Complex) -> tuple[Complex, Complex]:
-        """Return M and its derivative with respect to s, shape (n, m, m), at n places: one for each vehicle, if many."""
+        """Return M and its derivative with respect to s, shape (n, m, m), at n places; of many vehicles each has its own."""
         Z, slope = np.zeros((2, len(s), len(self._place), len(self._place)), dtype=complex)
         for element in self._others:
             for (row, column), value, steep in _stiffness(element, s):
@@ -70,13 +75,13 @@ class Receptance:
                     where = (slice(None), self._place[row], self._place[column])
                     Z[where] += value
                     slope[where] += steep
-        m, n = len(self._shares), len(s)
+        n = len(s)
         force = self._filled(self._force, n).transpose(0, 2, 1)
         displacement = self._filled(self._displacement, n)
         response = np.linalg.solve(Z, force)
         G = displacement @ response
         steep = -displacement @ np.linalg.solve(Z, slope @ response)
-        share = np.zeros((n, m, 1))
+        share = np.zeros((n, self.size, 1))
         for k, (own, soft) in enumerate(zip(self._shares, self._softness, strict=True)):
             share[:, k, 0] = own
             G[:, k, k] += soft

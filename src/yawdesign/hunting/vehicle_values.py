@@ -9,7 +9,7 @@ that cross there say.
 from collections.abc import Sequence
 from functools import reduce
 from itertools import groupby, pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -58,6 +58,9 @@ def vehicle_values(vehicle: Vehicle) -> VehicleValues:
         Its numbers are floats; its own C_s is not looked at.
     """
     receptance = Receptance(vehicle)
+    if not receptance.size:
+        routh, eigenvalues = count_unstable(vehicle.coupled.polynomial(0)), _unstable(vehicle, 0.0, 0)
+        return VehicleValues((), (routh,), routh == eigenvalues)
     natural = float(receptance.natural()[0])
     zeros = _roots_at_zero(vehicle.coupled.coefficients)
     found = _found(vehicle, receptance, natural, zeros)
@@ -71,7 +74,7 @@ def vehicle_values(vehicle: Vehicle) -> VehicleValues:
         steps = [int(2 * direction) for _, _, direction in group]
         decided &= len({*steps}) == 1 and counts[-1] + sum(steps) == after
         counts += [counts[-1] + sum(steps[: k + 1]) for k in range(len(steps))]
-    return VehicleValues(tuple((C_s, w) for C_s, w, _ in sum(groups, [])), tuple(counts), decided)
+    return VehicleValues(tuple((C_s, w) for C_s, w, _ in found), tuple(counts), decided)
 
 
 def _found(vehicle: Vehicle, receptance: Receptance, natural: float, zeros: int) -> list[Value]:
@@ -80,7 +83,7 @@ def _found(vehicle: Vehicle, receptance: Receptance, natural: float, zeros: int)
     near = near[(near > natural / REACH) & (near < natural * REACH)]
     s = motion_eigenvalues(vehicle.replace(C_s=near), vehicle.model.motions[0]) if len(near) else np.zeros((0, 0))
     which, root = np.nonzero((s.imag > 0) & (np.abs(s.real) < ON_AXIS * np.abs(s)))
-    first = receptance.followed(1 / near[which], s.imag[which, root])
+    first = receptance.followed((1 / near[which]).astype(complex), s.imag[which, root])
     C_s, omega = _different(first.C_s[first.found], first.omega[first.found])
     # What coincides there is as many roots as there are eigenvalues of M: each of them is followed by itself.
     values, _ = receptance.eigenvalues(omega)
@@ -103,7 +106,7 @@ def _same(a: Float, b: Float) -> Bools:
 
 def _groups(rows: Sequence[Value]) -> list[list[Value]]:
     """Return the values in rising order, those in one group between which no roots can be counted."""
-    apart = np.cumsum([0, *(b[0] > a[0] * (1 + APART) for a, b in pairwise(rows))]) if rows else []
+    apart: Any = np.cumsum([0, *(b[0] > a[0] * (1 + APART) for a, b in pairwise(rows))]) if rows else []
     return [[row for _, row in group] for _, group in groupby(zip(apart, rows, strict=True), key=lambda pair: pair[0])]
 
 
