@@ -57,9 +57,9 @@ def test_digits_double_until_two_answers_agree(table1, monkeypatch):
     digits = []
     values = exact._values
 
-    def counted(A, B, n):
+    def counted(coefficients, n):
         digits.append(n)
-        return values(A, B, n)
+        return values(coefficients, n)
 
     monkeypatch.setattr(exact, "_values", counted)
     exact_critical_values(PRINTED.at(table1))

@@ -12,8 +12,9 @@ from fractions import Fraction
 from itertools import cycle, pairwise
 from typing import Any
 
+from yawdesign.hunting.exact import resultant
 from yawdesign.problem import exact
-from yawdesign.vehicle.polynomials import Polynomial, add, evaluate, even_odd, multiply, scale, trim
+from yawdesign.vehicle.polynomials import Polynomial, evaluate, even_odd, trim
 from yawdesign.vehicle.vehicle import Vehicle
 
 # Bits of the first and the last attempt, and how many must be proved of every result. A double has 53.
@@ -70,9 +71,9 @@ def certify(vehicle: Vehicle) -> Certificate:
 def critical_values(vehicle: Vehicle) -> tuple[CertifiedValue, ...]:
     """Return every C_s > 0 at which a pair of roots lies on the imaginary axis, in ascending order.
 
-    With A(j w) = E_A(x) + j w O_A(x), x = w^2, and B alike, ``A + C_s B = 0`` is two real equations linear in C_s.
-    Their common solutions are ``C_s = -E_A/E_B`` at the positive roots x of ``E_B O_A - E_A O_B``: all of them, and
-    no others.
+    With the parts E_k(x) + j w O_k(x), x = w^2, of the polynomial that C_s^k multiplies, a root on the axis is two real
+    equations in C_s. They have a common solution exactly at the roots x of their resultant, and there it is unique:
+    ``-E_0/E_1`` where they are linear, ``(E_2 O_0 - E_0 O_2) / (E_1 O_2 - E_2 O_1)`` for a vehicle with a car body.
 
     Parameters
     ----------
@@ -86,26 +87,34 @@ def critical_values(vehicle: Vehicle) -> tuple[CertifiedValue, ...]:
     >>> [f"{x.C_s:.6f} at {x.omega:.6f} rad/s" for x in critical_values(vehicle)]
     ['90702.889779 at 23.154737 rad/s']
     """
-    A, B = _exact(vehicle).coupled.coefficients
-    (even_a, odd_a), (even_b, odd_b) = even_odd(A), even_odd(B)
-    resultant = _flint_polynomial(add(multiply(even_b, odd_a), scale(multiply(even_a, odd_b), -1)))
-    parts = (even_a, even_b, odd_a, odd_b)
-    return tuple(sorted(_at_the_precision_needed(_solutions, resultant, *parts), key=lambda x: x.C_s))
+    coefficients = [trim(p) for p in _exact(vehicle).coupled.coefficients]
+    while not coefficients[-1]:  # a yaw damper with a share of nothing
+        coefficients.pop()
+    F = _flint_polynomial(resultant(coefficients))
+    halves = [even_odd(p) for p in coefficients]
+    return tuple(sorted(_at_the_precision_needed(_solutions, F, halves), key=lambda x: x.C_s))
 
 
-def _solutions(
-    resultant: Any, even_a: Polynomial, even_b: Polynomial, odd_a: Polynomial, odd_b: Polynomial
-) -> list[CertifiedValue]:
+def _solutions(F: Any, halves: Sequence[tuple[Polynomial, Polynomial]]) -> list[CertifiedValue]:
     values = []
-    for x in _positive_balls(resultant):
-        # E_B or O_B may vanish at the root; one that does not is enough.
-        top, bottom = max(((even_a, even_b), (odd_a, odd_b)), key=lambda half: _accuracy(evaluate(half[1], x)))
-        C_s = -evaluate(top, x) / evaluate(bottom, x)
+    for x in _positive_balls(F):
+        top, bottom = _fraction([(evaluate(even, x), evaluate(odd, x)) for even, odd in halves])
+        C_s = top / bottom
         if _accuracy(C_s) < ENOUGH:
             raise _NotProvedError(f"the sign of a critical damping is not proved with {LAST_PRECISION} bits")
         if C_s > 0:
             values.append(CertifiedValue(_rounded(C_s), _rounded(x.sqrt())))
     return values
+
+
+def _fraction(values: Sequence[tuple[Any, Any]]) -> tuple[Any, Any]:
+    """Return numerator and denominator of the common C_s, given the parts (E, O) for every power of it."""
+    if len(values) == 2:
+        # E_1 or O_1 may vanish at the root; one that does not is enough.
+        top, bottom = max(zip(*values, strict=True), key=lambda half: _accuracy(half[1]))
+        return -top, bottom
+    (even, odd), (even_1, odd_1), (even_2, odd_2) = values
+    return even_2 * odd - even * odd_2, even_1 * odd_2 - even_2 * odd_1
 
 
 def unstable_roots(vehicle: Vehicle, C_s: Fraction | float) -> int:

@@ -1,6 +1,7 @@
-"""All critical values of the yaw damping of one bogie, and the intervals of stability between them.
+"""All critical values of the yaw damping of a vehicle, and the intervals of stability between them.
 
-They come from :mod:`yawdesign.hunting.many.critical_values`, which finds all of them. The smallest critical value
+Those of one bogie come from :mod:`yawdesign.hunting.many.critical_values`, those of a vehicle with a car body from
+:mod:`yawdesign.hunting.vehicle_values`; both find all of them. The smallest critical value
 need not be the boundary of stability, and stability may be lost again above another: eq. (11) of the paper and its
 "minimum positive real root" do not see that.
 """
@@ -13,9 +14,12 @@ import numpy as np
 
 from yawdesign.hunting.boundary import polish
 from yawdesign.hunting.eigenvalues import backward_error, count_undamped, motion_eigenvalues
+from yawdesign.hunting.exact import NotDecidedError, exact_critical_values
 from yawdesign.hunting.many.critical_values import CriticalField, critical_field, recomputed
 from yawdesign.hunting.many.parameter_sets import ParameterSets
+from yawdesign.hunting.receptance import Receptance
 from yawdesign.hunting.routh import TIME_UNIT
+from yawdesign.hunting.vehicle_values import VehicleValues, vehicle_values
 from yawdesign.vehicle.motions import Motion
 from yawdesign.vehicle.vehicle import Vehicle
 
@@ -35,7 +39,7 @@ class CriticalValue:
     omega : float
         Angular frequency of the motion at the boundary [rad/s].
     becomes : {"stable", "unstable", "neither"}
-        What the bogie becomes when C_s grows through the value.
+        What the vehicle becomes when C_s grows through the value.
     residual : float
         Backward error of the characteristic polynomial at (C_s, j omega) [-].
     """
@@ -86,6 +90,16 @@ def critical_damping(vehicle: Vehicle) -> CriticalDamping:
     vehicle : Vehicle
         Its numbers are floats; its own C_s is not looked at.
     """
+    found, counts, checked = _of_one_damper(vehicle) if len(vehicle.coupled.coefficients) == 2 else _of_more(vehicle)
+    values = tuple(
+        CriticalValue(C_s, omega, _becomes(before, after), _residual(vehicle.coupled, C_s, omega))
+        for (C_s, omega), (before, after) in zip(found, pairwise(counts), strict=True)
+    )
+    return CriticalDamping(values, counts, checked and all(x.residual < TIGHT for x in values))
+
+
+def _of_one_damper(vehicle: Vehicle) -> VehicleValues:
+    """Return what belongs to one link of yaw dampers: the polynomial is linear in C_s."""
     sets = ParameterSets(vehicle.model, vehicle.p, 1)
     field = critical_field(sets)
     if not field.recomputed[0] and not _eigenvalues_agree(vehicle, field):
@@ -93,26 +107,35 @@ def critical_damping(vehicle: Vehicle) -> CriticalDamping:
     found = [*zip(*field.values_at(0), strict=True)]
     if not field.recomputed[0]:
         found = polish(vehicle, found)
-    counts = field.counts_at(0)
-    values = tuple(
-        CriticalValue(C_s, omega, _becomes(before, after), _residual(vehicle.coupled, C_s, omega))
-        for (C_s, omega), (before, after) in zip(found, pairwise(counts), strict=True)
-    )
-    return CriticalDamping(values, counts, not field.unverified[0] and all(x.residual < TIGHT for x in values))
+    return VehicleValues(tuple(found), field.counts_at(0), not field.unverified[0])
+
+
+def _of_more(vehicle: Vehicle) -> VehicleValues:
+    """Return what belongs to several links of yaw dampers, with many digits where double precision does not decide."""
+    found = vehicle_values(vehicle)
+    if found.decided:
+        return found
+    try:
+        exact = exact_critical_values(vehicle)
+    except NotDecidedError:
+        return found
+    return VehicleValues(tuple((float(x), float(w)) for x, w in exact.critical), exact.unstable_roots, True)
 
 
 def _eigenvalues_agree(vehicle: Vehicle, field: CriticalField) -> bool:
     """Return whether the eigenvalues count as many unstable roots in every interval."""
     values, _ = field.values_at(0)
-    everywhere = vehicle.replace(C_s=np.array(_places(values, vehicle.p[vehicle.model.joints["C_s"]])))
+    joint = vehicle.model.joints.get("C_s")
+    natural = vehicle.p[joint] / TIME_UNIT if joint else float(Receptance(vehicle).natural()[0])
+    everywhere = vehicle.replace(C_s=np.array(_places(values, natural)))
     found = count_undamped(motion_eigenvalues(everywhere, everywhere.coupled))
     return tuple(map(int, found)) == field.counts_at(0)
 
 
-def _places(values: Sequence[float], stiffness: float) -> list[float]:
-    """Return one damping in every interval; without critical values the one whose joint relaxes at 100 rad/s."""
+def _places(values: Sequence[float], natural: float) -> list[float]:
+    """Return one damping in every interval; without critical values the one that is natural to the vehicle."""
     if not values:
-        return [stiffness / TIME_UNIT]
+        return [natural]
     return [values[0] / 2, *(float(np.sqrt(a * b)) for a, b in pairwise(values)), 2 * values[-1]]
 
 

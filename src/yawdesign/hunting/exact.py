@@ -1,8 +1,8 @@
-"""Critical values of one bogie where double precision does not decide: rational coefficients, decimals of many digits.
+"""Critical values where double precision does not decide: rational coefficients, decimals of many digits.
 
 The coefficients are exact rationals. Their roots come from a Sturm chain and the counts of unstable roots from Routh's
 array, both in decimal numbers of so many digits that twice as many give the same answer. This is slow, some hundredths
-of a second a bogie, and shares nothing with the fast way but the polynomial.
+of a second a bogie and seconds a vehicle with a car body, and shares nothing with the fast way but the polynomial.
 """
 
 import decimal
@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
+from functools import reduce
 from itertools import pairwise
 
 from yawdesign.hunting.routh import routh_column
@@ -65,42 +66,71 @@ def exact_critical_values(vehicle: Vehicle) -> ExactValues:
     NotDecidedError
         If even the most digits give no answer that twice as many confirm, such as for values that coincide.
     """
-    A, B = vehicle.model.at({name: exact(x) for name, x in vehicle.p.items()}).coupled.coefficients
+    coupled = vehicle.model.at({name: exact(x) for name, x in vehicle.p.items()}).coupled
+    coefficients = [trim(p) for p in coupled.coefficients]
+    while not coefficients[-1]:  # a yaw damper with a share of nothing
+        coefficients.pop()
     digits, before = FIRST_DIGITS, None
     while digits <= LAST_DIGITS:
-        found = _with_digits(A, B, digits)
+        found = _with_digits(coefficients, digits)
         if found and before and found.same(before):
             return found
         digits, before = 2 * digits, found
     raise NotDecidedError(f"{LAST_DIGITS} digits do not decide")
 
 
-def _with_digits(A: Polynomial, B: Polynomial, digits: int) -> ExactValues | None:
+def _with_digits(coefficients: Sequence[Polynomial], digits: int) -> ExactValues | None:
     """Return the values computed with so many digits, or nothing where these leave a step open."""
     with decimal.localcontext(decimal.Context(prec=digits, Emax=decimal.MAX_EMAX, Emin=decimal.MIN_EMIN)):
         try:
-            return _values(A, B, digits)
+            return _values(coefficients, digits)
         except ArithmeticError:  # also decimal's own: 0/0, or what overflows
             return None
 
 
-def _values(exact_a: Polynomial, exact_b: Polynomial, digits: int) -> ExactValues:
-    A, B = _decimals(exact_a), _decimals(exact_b)
-    phase = _phase(exact_a, exact_b)
+def _values(coefficients: Sequence[Polynomial], digits: int) -> ExactValues:
+    parts = [_decimals(p) for p in coefficients]
+    F = resultant(coefficients)
+    phase = _decimals(trim(F[::-1])[::-1])  # without its roots at zero
     roots = [_refined(chain[0], low, high, digits) for chain, low, high in _isolated(phase, digits)]
-    critical = sorted((C_s, x.sqrt()) for x in roots if (C_s := _damping(A, B, x, digits)) > 0)
-    counts = tuple(_unstable(add(A, scale(B, C_s))) for C_s in _places([C_s for C_s, _ in critical]))
+    critical = sorted((C_s, x.sqrt()) for x in roots if (C_s := _damping(parts, x, digits)) > 0)
+    counts = tuple(_unstable(_at(parts, C_s)) for C_s in _places([C_s for C_s, _ in critical]))
     steps = [after - before for before, after in pairwise(counts)]
-    if steps != [2 * _direction(A, B, *value) for value in critical]:
+    if steps != [2 * _direction(parts, *value) for value in critical]:
         raise NotDecidedError("a count does not change the way its root crosses the axis")
     return ExactValues(tuple(critical), counts)
 
 
-def _phase(A: Polynomial, B: Polynomial) -> Digits:
-    """Return E_B O_A - E_A O_B in x = w^2, without its roots at zero."""
-    (even_a, odd_a), (even_b, odd_b) = even_odd(A), even_odd(B)
-    F = trim(add(multiply(even_b, odd_a), scale(multiply(even_a, odd_b), -1)))
-    return _decimals(trim(F[::-1])[::-1])
+def resultant(coefficients: Sequence[Polynomial]) -> Polynomial:
+    """Return a polynomial in x = w^2 that is zero where a root lies on the axis with some C_s.
+
+    With the parts E_k(x) + j w O_k(x) of the coefficient of C_s^k, real and imaginary part have a common root C_s.
+
+    Raises
+    ------
+    NotDecidedError
+        If it is zero everywhere: each root on the axis is there twice, or one stays there.
+    """
+    halves = [even_odd(p) for p in coefficients]
+    F: Polynomial = ()
+    if len(halves) == 2:
+        F = _minor(halves, 0, 1)
+    elif len(halves) == 3:
+        outer, first, last = (_minor(halves, *pair) for pair in ((0, 2), (0, 1), (1, 2)))
+        F = add(multiply(outer, outer), scale(multiply(first, last), -1))
+    F = trim(F)
+    if not F and len(halves) > 1:
+        raise NotDecidedError("a root lies on the axis at every frequency")
+    return F
+
+
+def _minor(halves: Sequence[tuple[Polynomial, Polynomial]], i: int, k: int) -> Polynomial:
+    """Return E_k O_i - E_i O_k."""
+    return add(multiply(halves[k][0], halves[i][1]), scale(multiply(halves[i][0], halves[k][1]), -1))
+
+
+def _at(parts: Sequence[Digits], C_s: Decimal) -> Digits:
+    return reduce(lambda value, p: add(p, scale(value, C_s)), reversed(parts))
 
 
 def _decimals(p: Polynomial) -> Digits:
@@ -196,13 +226,19 @@ def _refined(F: Digits, low: Decimal, high: Decimal, digits: int) -> Decimal:
     raise NotDecidedError("a root is not found to half the digits")
 
 
-def _damping(A: Digits, B: Digits, x: Decimal, digits: int) -> Decimal:
+def _damping(parts: Sequence[Digits], x: Decimal, digits: int) -> Decimal:
     """Return C_s of the crossing at w^2 = x."""
-    (ea, oa), (eb, ob) = ([_value(part, x) for part in even_odd(p)] for p in (A, B))
-    top, bottom = ea * eb + x * oa * ob, eb * eb + x * ob * ob
-    if abs(top) < (abs(ea * eb) + abs(x * oa * ob)).scaleb(-digits // 4):
-        raise NotDecidedError("the sign of a critical damping is open")
-    return Decimal(-top / bottom)
+    halves = [[_value(half, x) for half in even_odd(p)] for p in parts]
+    if len(halves) == 2:
+        (ea, oa), (eb, ob) = halves
+        top, bottom = (-ea * eb, -x * oa * ob), (eb * eb, x * ob * ob)
+    else:
+        (ea, oa), (eb, ob), (ec, oc) = halves
+        top, bottom = (ec * oa, -ea * oc), (eb * oc, -ec * ob)
+    for terms in (top, bottom):
+        if abs(sum(terms)) < sum(map(abs, terms)).scaleb(-digits // 4):
+            raise NotDecidedError("the sign of a critical damping is open")
+    return Decimal(sum(top) / sum(bottom))
 
 
 def _places(values: Sequence[Decimal]) -> list[Decimal]:
@@ -225,13 +261,14 @@ def _unstable(core: Digits) -> int:
     return int(zeros) + sum(a != b for a, b in pairwise(signs))
 
 
-def _direction(A: Digits, B: Digits, C_s: Decimal, omega: Decimal) -> int:
+def _direction(parts: Sequence[Digits], C_s: Decimal, omega: Decimal) -> int:
     """Return +1 if the root at a critical value moves to the right as C_s grows, else -1."""
     x = omega * omega
-    even, odd = even_odd(add(A, scale(B, C_s)))
+    even, odd = even_odd(_at(parts, C_s))
     # p(j w) = E(x) + j w O(x); its derivative with respect to w is slope = 2 w E' + j (O + 2 x O').
     real, imaginary = 2 * omega * _value(derivative(even), x), _value(odd, x) + 2 * x * _value(derivative(odd), x)
-    even_b, odd_b = (_value(part, x) for part in even_odd(B))
-    # ds/dC_s = j dw/dC_s = -j B / slope; its real part has the sign of Im(B conj(slope)).
-    turn = omega * odd_b * real - even_b * imaginary
+    pull = _at([scale(p, k) for k, p in enumerate(parts)][1:], C_s)
+    even_pull, odd_pull = (_value(part, x) for part in even_odd(pull))
+    # ds/dC_s = j dw/dC_s = -j pull / slope; its real part has the sign of Im(pull conj(slope)).
+    turn = omega * odd_pull * real - even_pull * imaginary
     return 1 if turn > 0 else -1

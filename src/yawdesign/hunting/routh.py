@@ -167,6 +167,8 @@ def _column_without_zero_rows(p: Polynomial) -> tuple[NDArray[np.float64], int]:
         return column, 0
     # Entries of a row stand at every second power of w, the first at the highest, which is the number of rows below.
     above = rows[zero - 1]
+    if len(above) < 2:  # the last row is the last coefficient: it was lost to underflow
+        return np.append(column, 0.0), 0
     degree = len(rows) - zero
     slope = [times(degree - k, a) for k, a in enumerate(above[:-1])]
     below = np.array([row[0] for row in _rows(list(above), slope)], dtype=float)

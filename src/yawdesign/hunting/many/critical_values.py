@@ -19,6 +19,7 @@ from yawdesign.hunting.exact import ExactValues, NotDecidedError, exact_critical
 from yawdesign.hunting.many import counts
 from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.many.root_isolation import isolate
+from yawdesign.hunting.receptance import Receptance
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.vehicle.polynomials import even_odd
 from yawdesign.vehicle.vehicle import Vehicle
@@ -170,7 +171,7 @@ def in_double_precision(sets: ParameterSets) -> tuple[CriticalField, Bools]:
         found = _crossings(A, B, isolated.owner, x)
     rows = Rows(found.owner, found.C_s, n)
     critical, omega, direction, error = map(rows.spread, found[1:])
-    unstable, doubtful = _counted(A, B, critical, sets.values[sets.model.joints["C_s"]])
+    unstable, doubtful = _counted(A, B, critical, _natural(sets))
     known = ~np.isnan(critical)
     steps = np.diff(unstable, axis=1)
     with np.errstate(invalid="ignore"):
@@ -284,16 +285,23 @@ class Rows:
         return out
 
 
-def _counted(A: Float, B: Float, critical: Float, stiffness: Any) -> tuple[Float, Bools]:
+def _natural(sets: ParameterSets) -> Float:
+    """Return the C_s whose joint relaxes at 100 rad/s; for a rigid joint one of the vehicle's size."""
+    joint = sets.model.joints.get("C_s")
+    if joint is None:
+        return Receptance(sets.vehicle).natural(sets.size)
+    return np.broadcast_to(sets.values[joint], sets.size) / TIME_UNIT
+
+
+def _counted(A: Float, B: Float, critical: Float, natural: Float) -> tuple[Float, Bools]:
     """Return the number of unstable roots in every interval of C_s, and where a count is doubtful."""
     n, m = critical.shape
     C_s = np.full((n, m + 1), np.nan)
-    joint = np.broadcast_to(stiffness, n) / TIME_UNIT
     # Each value's upper neighbour; beyond the last one infinity.
     upper = np.concatenate([critical[:, 1:], np.full((n, 1), np.nan)], axis=1)[:, :m]
-    C_s[:, 1:] = np.where(np.isnan(upper), FAR * joint[:, None], np.sqrt(critical) * np.sqrt(upper))
+    C_s[:, 1:] = np.where(np.isnan(upper), FAR * natural[:, None], np.sqrt(critical) * np.sqrt(upper))
     C_s[:, 1:][np.isnan(critical)] = np.nan
-    C_s[:, 0] = joint / FAR
+    C_s[:, 0] = natural / FAR
     row, column = np.nonzero(~np.isnan(C_s))
     size = max(len(A), len(B))
     core = np.zeros((size, len(row)))
