@@ -36,8 +36,6 @@ class Problem:
         Whether the motors' yaw reaction acts on the frame, or is left out as in the paper's equations.
     curve : Curve, optional
         The tightest curve; without it the damping has no upper limit.
-    cases : tuple of Case
-        Faults that must be survived.
     design : Design
         What may be changed, and what is to be best.
     car_body : CarBody, optional
