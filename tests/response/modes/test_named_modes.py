@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import yawdesign as yd
 from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.response.modes.named_modes import modes_at
-from yawdesign.response.modes.names import owners
+from yawdesign.response.modes.participation import owners
 from yawdesign.response.run.system import System
 from yawdesign.vehicle.catalogue import CATALOGUE, trailer_bogie
 from yawdesign.vehicle.elements import Link, Maxwell, Pair

@@ -13,6 +13,7 @@ import scipy.linalg as sl
 
 from yawdesign.hunting.arrays import Bools, Complex, Float, Index
 from yawdesign.vehicle.determinant import independent_parts, reached_from
+from yawdesign.vehicle.elements import parted
 
 ROUNDING = 1e-13  # relative to the size of the matrix
 
@@ -131,6 +132,9 @@ def _driven_by(matrix: Float, states: Index) -> Index:
 def unfold(names: Sequence[str], values: Complex, *, forces: bool = False) -> dict[str, complex]:
     """Return what belongs to each end, given half the sum (a name ending in +) and half the difference (in -).
 
+    Where pairs stand inside a pair, the outer end comes first: of ``y_w+-`` and the like the ends ``y_w11``, ...,
+    ``y_w22``; of ``y_w1+`` and ``y_w1-`` the inner ones.
+
     Parameters
     ----------
     names : sequence of str
@@ -141,14 +145,23 @@ def unfold(names: Sequence[str], values: Complex, *, forces: bool = False) -> di
         The values are not displacements but what multiplies them (a left eigenvector): half of each then belongs to
         either end.
     """
-    found = dict(zip(names, values, strict=True))
-    out: dict[str, complex] = {}
     half = 0.5 if forces else 1.0
-    for name, value in found.items():
-        if name.endswith("+"):
-            stem = name[:-1]
-            other = found[stem + "-"]
-            out[stem + "1"], out[stem + "2"] = complex(half * (value + other)), complex(half * (value - other))
-        elif not name.endswith("-"):
-            out[name] = complex(value)
+    out = {name: complex(value) for name, value in zip(names, values, strict=True)}
+    while any("+" in parted(name)[1] for name in out):
+        found, out = out, {}
+        for name, value in found.items():
+            stem, ends = parted(name)
+            outer, sign, inner = _first_sign(ends)
+            if sign == "+":
+                other = found[f"{stem}{outer}-{inner}"]
+                out[f"{stem}{outer}1{inner}"] = half * (value + other)
+                out[f"{stem}{outer}2{inner}"] = half * (value - other)
+            elif not sign:
+                out[name] = value
     return out
+
+
+def _first_sign(ends: str) -> tuple[str, str, str]:
+    """Return the ends before the first sign, that sign, and what stands behind it."""
+    outer = ends[: len(ends) - len(ends.lstrip("12"))]
+    return outer, ends[len(outer) : len(outer) + 1], ends[len(outer) + 1 :]

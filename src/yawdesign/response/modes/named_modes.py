@@ -1,5 +1,6 @@
 """The modes of a bogie: frequency, damping, shape, and what takes part in each."""
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -12,7 +13,9 @@ from yawdesign.hunting.verdict import EXACT, Mode, least_stable
 from yawdesign.problem import Problem
 from yawdesign.problem.result import Result
 from yawdesign.response.modes.eigenvectors import unfold, whole_vector
-from yawdesign.response.modes.names import NamedRoot, hunting_root, named_roots, owners
+from yawdesign.response.modes.names import NamedRoot, named_roots
+from yawdesign.response.modes.participation import owners
+from yawdesign.vehicle.elements import parted
 from yawdesign.vehicle.polynomials import Polynomial
 from yawdesign.vehicle.state_space import StateSpace
 from yawdesign.vehicle.vehicle import Vehicle
@@ -37,6 +40,8 @@ class NamedMode(Mode):
     conicity : float
         How much the root depends on the conicity, |d ln eigenvalue / d ln lambda| [-]: 1/2 for a wheelset that rolls
         freely, 0 for what knows nothing of the wheels.
+    hunting : bool
+        Whether it is the hunting of the vehicle, of which the least decay rate counts where each bogie has its own.
     residual : float
         The larger of two backward errors [-]: of the characteristic polynomial at the eigenvalue, and of the
         eigenvector.
@@ -47,6 +52,7 @@ class NamedMode(Mode):
     shape: Mapping[str, complex]
     participation: Mapping[str, float]
     conicity: float
+    hunting: bool
     residual: float
 
 
@@ -113,7 +119,7 @@ def modes(problem: Problem) -> Modes:
         C_s=verdict.C_s,
         speed=verdict.speed,
         equations=problem.equations,
-        parameters={name: float(value) for name, value in problem.bogie.parameters().items()},
+        parameters={name: float(value) for name, value in problem.parameters().items()},
         checked=verdict.checked and exact,
     )
 
@@ -132,15 +138,8 @@ def modes_at(vehicle: Vehicle) -> tuple[NamedMode, ...]:
 
 
 def hunting_mode(modes: Sequence[NamedMode]) -> NamedMode | None:
-    """Return the hunting of a bogie among its modes; None if nothing that oscillates depends on the conicity.
-
-    Parameters
-    ----------
-    modes : sequence of NamedMode
-        All modes, as `modes_at` returns them.
-    """
-    place = hunting_root(np.array([mode.eigenvalue for mode in modes]), np.array([mode.conicity for mode in modes]))
-    return None if place is None else modes[place]
+    """Return the hunting of a vehicle among its modes; None if nothing that oscillates depends on the conicity."""
+    return next((mode for mode in modes if mode.hunting), None)
 
 
 def _mode(root: NamedRoot, vehicle: Vehicle, matrix: Float, polynomial: Polynomial) -> NamedMode:
@@ -157,17 +156,28 @@ def _mode(root: NamedRoot, vehicle: Vehicle, matrix: Float, polynomial: Polynomi
         shape=_shape(vehicle, vector),
         participation=_participation(vehicle.folded_state_space, left, vector),
         conicity=root.conicity,
+        hunting=root.hunting,
         residual=max(float(backward_error(polynomial, np.array(s))), _eigenvector_error(matrix, s, vector)),
     )
 
 
 def _shape(vehicle: Vehicle, vector: Complex) -> dict[str, complex]:
-    coordinates, units = vehicle.folded_state_space.coordinates, vehicle.model.coordinates
+    coordinates, units, arms = vehicle.folded_state_space.coordinates, vehicle.model.coordinates, _arms(vehicle.p)
     shape = unfold(coordinates, vector[: len(coordinates)])
-    weight = {x: float(vehicle.p["a"]) if units[x] == "rad" else 1.0 for x in shape}
+    weight = {x: arms[parted(x)[0]] if units[x] == "rad" else 1.0 for x in shape}
     largest = max(shape, key=lambda x: weight[x] * abs(shape[x]))
     unit = weight[largest] * shape[largest] or 1.0
     return {x: value / unit for x, value in shape.items()}
+
+
+def _arms(p: Mapping[str, float]) -> Mapping[str, float]:
+    """Return by what an angle is multiplied to be a displacement of its body [m], by the name of the coordinate.
+
+    Yaw of the car body displaces it over the bogies, its roll where the secondary springs stand, roll of the frame the
+    axle boxes; yaw of all other bodies counts at the half wheelbase.
+    """
+    rolling = {"th_c": abs(p["h_s"]) or p["b_2"], "psi_c": p["l_c"]} if "l_c" in p else {}
+    return defaultdict(lambda: p["a"], {"th_b": p["b_1"], **rolling})
 
 
 def _participation(space: StateSpace, left: Complex, right: Complex) -> dict[str, float]:
