@@ -116,8 +116,8 @@ def test_the_worst_of_a_range_of_speeds():
     assert yd.modes(problem).speed == pytest.approx(300 / 3.6)
 
 
-def with_primary_dampers(p, equations):
-    *others, wheelsets = trailer_bogie(p, equations)
+def with_primary_dampers(p, equations, flags):
+    *others, wheelsets = trailer_bogie(p, equations, flags)
     damper = Link((Maxwell(1e7, 2e4),), {"y_b": 1, "y_w": -1}, lever={"phi_b": p["a"]}, name="primary damper")
     return [*others, Pair((*wheelsets.elements, damper), own=wheelsets.own)]
 

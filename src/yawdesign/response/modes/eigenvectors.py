@@ -12,6 +12,7 @@ import numpy as np
 import scipy.linalg as sl
 
 from yawdesign.hunting.arrays import Bools, Complex, Float, Index
+from yawdesign.response.modes.doublets import purify
 from yawdesign.vehicle.determinant import independent_parts, reached_from
 from yawdesign.vehicle.elements import parted
 
@@ -76,7 +77,18 @@ def spectrum(matrix: Float) -> Eigensystem:
     w = np.hstack([w[:, real], w[:, above], w[:, above].conj()]).conj()
     scale = np.sum(w * v, axis=0)
     # Where two roots coincide the product vanishes; the vectors then say nothing, but they stay finite.
-    return Eigensystem(s, v, np.asarray(w / np.where(scale == 0, 1, scale), dtype=complex), len(real))
+    w = np.asarray(w / np.where(scale == 0, 1, scale), dtype=complex)
+    _purify(s, w, v, len(real), rounding(matrix))
+    return Eigensystem(s, v, w, len(real))
+
+
+def _purify(s: Complex, w: Complex, v: Complex, real: int, size: float) -> None:
+    """Give roots above the axis that are one within rounding, and their conjugates, pure motions."""
+    above = np.arange(real, real + (len(s) - real) // 2)
+    parts = [x[:, above] for x in (w, v)]
+    if purify(s[above], *parts, size):
+        for x, part in zip((w, v), parts, strict=True):
+            x[:, above], x[:, above + len(above)] = part, part.conj()
 
 
 def rounding(matrix: Float) -> float:
