@@ -7,12 +7,26 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from yawdesign.output.pictures import new_axes
-from yawdesign.output.plan_view import COLOURS, REST, Body, bodies, caption, find_mode, half_size, subtitle
+from yawdesign.output.plan_view import (
+    COLOURS,
+    REST,
+    Body,
+    bodies,
+    caption,
+    extent,
+    find_mode,
+    half_size,
+    labels,
+    scale_note,
+    subtitle,
+)
 from yawdesign.problem import ProblemError, to_unit
 from yawdesign.problem.table import as_choice
 from yawdesign.study.axes import ROWS
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.axes import Axes
 
     from yawdesign.response.modes.followed_modes import FollowedModes
@@ -23,7 +37,7 @@ QUANTITIES = ("root_locus", "damping_ratio", "frequency")
 
 
 def mode_shape(result: "Modes", ax: "Axes | None" = None, *, mode: str | None = None, phase: float = 0.0) -> "Axes":
-    """Draw a mode in plan view over the bogie at rest.
+    """Draw a mode in plan view over the vehicle at rest; what rolls is drawn from behind too.
 
     Parameters
     ----------
@@ -39,33 +53,36 @@ def mode_shape(result: "Modes", ax: "Axes | None" = None, *, mode: str | None = 
     from matplotlib.patches import Polygon
 
     ax = new_axes(ax)
-    chosen = find_mode(result, mode)
-    _track(ax, result)
+    chosen, p = find_mode(result, mode), result.parameters
+    _track(ax, p)
     factor = cmath.exp(1j * phase) if chosen.frequency else complex(math.exp(-phase / 1.5))
     for body in bodies(result, chosen):
         for outline in body.outlines:
-            at_rest = [(body.x + x, y) for x, y in outline]
+            at_rest = _placed(body, outline, 0j)
             ax.add_patch(Polygon(at_rest, closed=True, fill=False, edgecolor=REST, linewidth=1.0, zorder=1))
-            moved = _placed(body, outline, factor)
-            colour = COLOURS[body.kind]
-            ax.add_patch(Polygon(moved, closed=True, facecolor=colour, edgecolor="black", alpha=0.75, zorder=2))
-    ax.set_title(f"{caption(chosen)}\n{subtitle(result)}; amplitude not to scale", fontsize="medium")
+            moved, colour = _placed(body, outline, factor), COLOURS[body.kind]
+            look = {"facecolor": colour, "alpha": body.opacity, "edgecolor": "black"}
+            ax.add_patch(Polygon(moved, closed=True, zorder=2, **look))
+    for x, y, text in labels(p):
+        ax.text(x, y, text, ha="center", va="center", fontsize="small")
+    ax.set_title(f"{caption(chosen)}\n{subtitle(result)}; {scale_note(p)}", fontsize="medium")
     return ax
 
 
-def _track(ax: "Axes", result: "Modes") -> None:
-    length, width = half_size(result)
-    ax.set(xlim=(-length, length), ylim=(-width, width), aspect="equal", xticks=[], yticks=[])
+def _track(ax: "Axes", p: "Mapping[str, float]") -> None:
+    left, right, bottom, top = extent(p)
+    end = half_size(p)[0]
+    ax.set(xlim=(left, right), ylim=(bottom, top), aspect="equal", xticks=[], yticks=[])
     for side in (1, -1):
-        ax.axhline(side * result.parameters["b"], color=REST, linewidth=3, zorder=0)
-    ax.annotate("", (length - 0.1, -width + 0.14), (length - 0.8, -width + 0.14), arrowprops={"arrowstyle": "->"})
-    ax.text(length - 0.85, -width + 0.14, "direction of travel", ha="right", va="center", fontsize="small")
+        ax.plot([left, end], [side * p["b"]] * 2, color=REST, linewidth=3, zorder=0)
+    ax.annotate("", (end - 0.1, bottom + 0.14), (end - 0.8, bottom + 0.14), arrowprops={"arrowstyle": "->"})
+    ax.text(end - 0.85, bottom + 0.14, "direction of travel", ha="right", va="center", fontsize="small")
 
 
 def _placed(body: Body, outline: Any, factor: complex) -> list[tuple[float, float]]:
-    y, phi = (body.y * factor).real, (body.phi * factor).real
-    c, s = math.cos(phi), math.sin(phi)
-    return [(body.x + c * px - s * py, y + s * px + c * py) for px, py in outline]
+    x, y = (rest + (shift * factor).real for rest, shift in zip(body.rest, body.shift, strict=True))
+    c, s = math.cos(phi := (body.phi * factor).real), math.sin(phi)
+    return [(x + c * px - s * py, y + s * px + c * py) for px, py in outline]
 
 
 def mode_paths(
