@@ -154,9 +154,7 @@ def _line(start: float, end: float, y: float) -> str:
 def _moving(body: Body) -> str:
     style = f'fill="{COLOURS[body.kind]}" fill-opacity="{body.opacity}" stroke="black"'
     (x, y), (dx, dy) = body.rest, body.shift
-    motion = (
-        f'data-x="{_path(dx, x)}" data-y="{_path(dy, y)}" data-phi="{body.phi.real:.6f} {body.phi.imag:.6f}"'
-    )
+    motion = f'data-x="{_path(dx, x)}" data-y="{_path(dy, y)}" data-phi="{body.phi.real:.6f} {body.phi.imag:.6f}"'
     return _group(body, f"{style} {motion}", 1.0)
 
 

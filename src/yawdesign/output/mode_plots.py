@@ -23,6 +23,7 @@ from yawdesign.output.plan_view import (
 from yawdesign.problem import ProblemError, to_unit
 from yawdesign.problem.table import as_choice
 from yawdesign.study.axes import ROWS
+from yawdesign.vehicle.motions import BOGIES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from yawdesign.response.modes.named_modes import Modes
 
 STABLE, UNSTABLE = "#e8f3ea", "#fbeae8"
+MOST = 10  # modes of a vehicle in one picture, each with a colour of its own
 QUANTITIES = ("root_locus", "damping_ratio", "frequency")
 
 
@@ -104,7 +106,8 @@ def mode_paths(
     of : {"root_locus", "damping_ratio", "frequency"}
         What to draw.
     widest : float
-        Modes that decay faster than this everywhere [1/s] are left out.
+        Modes that decay faster than this everywhere [1/s] are left out. Of a vehicle with two bogies the ten of
+        least damping ratio are drawn, and of two that differ in how the bogies move together the less damped one.
     target : float, optional
         A damping ratio [-] to draw as a line, such as 0.05.
     """
@@ -113,9 +116,25 @@ def mode_paths(
     shown = [k for k in range(len(result.names)) if np.nanmax(result.eigenvalues[:, k].real) > -widest]
     if not shown:
         raise ProblemError(f"all modes decay faster than {widest:g} 1/s: give a larger `widest`")
+    shown = _that_matter(result, shown)
     if of == "root_locus":
         return _root_locus(result, ax, shown, widest, target)
     return _over_parameter(result, ax, shown, of, target)
+
+
+def _that_matter(result: "FollowedModes", shown: list[int]) -> list[int]:
+    """Return which modes are drawn: of those that two bogies have alike the less damped ones, and not too many."""
+    least = {k: float(np.nanmin(result.damping_ratio[:, k])) for k in shown}
+    first: dict[str, int] = {}
+    for k in sorted(shown, key=least.__getitem__):
+        first.setdefault(_label(result, k), k)
+    return shown if len(first) == len(shown) else sorted([*first.values()][:MOST])
+
+
+def _label(result: "FollowedModes", k: int) -> str:
+    """Return the name of a mode without what it says of the bogies."""
+    name = result.names[k]
+    return next((name.removesuffix(f", {words}") for words in BOGIES.values() if name.endswith(f", {words}")), name)
 
 
 def axis_in_unit(result: "FollowedModes") -> tuple[np.ndarray[Any, Any], str]:
@@ -180,11 +199,11 @@ def _label_ends(ax: "Axes", result: "FollowedModes", inside: list[int], top: flo
             k != m and abs(x - far) < 0.3 * (right - left) and abs(y - up) < 0.08 * top for m, (far, up) in ends.items()
         ]
         if not any(near):
-            ax.annotate(result.names[k], (x, y), (8, 0), textcoords="offset points", fontsize="x-small", va="center")
+            ax.annotate(_label(result, k), (x, y), (8, 0), textcoords="offset points", fontsize="x-small", va="center")
             continue
         height = max(height, y - 0.05 * top)
         line = {"arrowstyle": "-", "color": "0.5", "linewidth": 0.6}
-        ax.annotate(result.names[k], (x, y), (0.06 * right, height), fontsize="x-small", va="center", arrowprops=line)
+        ax.annotate(_label(result, k), (x, y), (0.06 * right, height), fontsize="x-small", va="center", arrowprops=line)
         height += 0.05 * top
 
 
@@ -193,7 +212,7 @@ def _over_parameter(result: "FollowedModes", ax: "Axes", shown: list[int], of: s
     waving = [k for k in shown if np.any(result.frequency[:, k] > 0)]
     for k in waving:
         y = result.frequency[:, k] if of == "frequency" else 100 * result.damping_ratio[:, k]
-        ax.plot(values, np.where(result.frequency[:, k] > 0, y, np.nan), linewidth=1.8, label=result.names[k])
+        ax.plot(values, np.where(result.frequency[:, k] > 0, y, np.nan), linewidth=1.8, label=_label(result, k))
     if of == "damping_ratio":
         _shade_unstable(ax, result, waving)
         if target is not None:

@@ -120,7 +120,7 @@ def _car_body(p: Mapping[str, float], shape: Mapping[str, complex]) -> Iterator[
 
 
 def _from_behind(p: Mapping[str, float], shape: Mapping[str, complex]) -> Iterator[Body]:
-    """Yield the leading bogie, or the only one, and the car body over it as one sees them in the direction of travel."""
+    """Yield the leading bogie, or the only one, and the car body over it, seen from behind."""
     if not rolls(p):
         return
     (bogie, _), *_ = _bogies(p)

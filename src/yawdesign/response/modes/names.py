@@ -128,8 +128,8 @@ class Naming:
     ----------
     s, conicity : ndarray, shape (roots,)
         Roots [1/s], and how much they depend on the conicity.
-    moved, strokes : ndarray, shape (2, roots)
-        What `of_bogies` says of them, by the motion of bodies and by the strokes of dampers.
+    moved, all_states : ndarray, shape (2, roots)
+        What `of_bogies` says of them, by the motion of bodies alone and with the strokes of dampers.
     twin : ndarray of int
         For each root its conjugate.
     states : tuple of tuple of Owner
@@ -145,7 +145,7 @@ class Naming:
     s: Complex
     conicity: Float
     moved: Float
-    strokes: Float
+    all_states: Float
     twin: Index
     states: Sequence[Sequence[Owner]]
     groups: Sequence[Group]
@@ -162,11 +162,11 @@ class Naming:
         groups = tuple(dict.fromkeys(owner.group for owner in every))
         room = [sum(owner.group == group for owner in every) for group in groups]
         share = np.hstack([shares(part, own, groups) for part, own in zip(found, states, strict=True)])
-        moved, strokes = (
+        moved, all_states = (
             np.hstack(
                 [of_bogies(part, own, order[x], among) for part, own, x in zip(found, states, places, strict=True)]
             )
-            for among in ((0, 1), (2,))
+            for among in ((0, 1), (0, 1, 2))
         )
         s, twin = np.concatenate([part.s for part in found]), _joined_twins(found)
         chosen = assign_groups(share, room, twin)
@@ -179,7 +179,7 @@ class Naming:
             both = [*hunting, *twin[hunting]]
             share[:, both] = np.where([group.hunts for group in groups], CERTAIN, 0.0)[:, None]
             chosen = assign_groups(share, room, twin)
-        return cls(s, conicity, moved, strokes, twin, [own for own in states for _ in own], groups, chosen, hunting)
+        return cls(s, conicity, moved, all_states, twin, [own for own in states for _ in own], groups, chosen, hunting)
 
     @property
     def two_bogies(self) -> bool:
@@ -227,7 +227,7 @@ class Naming:
             same = [k for k, i in enumerate(roots) if stems[k] == stem and not self.groups[self.chosen[i]].carried]
             which = [roots[k] for k in same]
             bodies = bool(which) and bool(self.groups[self.chosen[which[0]]].body)
-            side, phase = (self.moved if bodies else self.strokes)[:, which]
+            side, phase = (self.moved if bodies else self.all_states)[:, which]
             apart = np.abs(side).sum() > np.abs(phase).sum()
             amount, (one, other) = (side, "12") if apart else (phase, "+-")
             half = len(same) // 2
