@@ -188,6 +188,6 @@ def test_a_path_of_a_vehicle_backwards_is_the_same_path():
 
 
 def test_names_on_an_axis_are_the_vehicles():
-    with pytest.raises(yd.ProblemError, match="M_c is not known here"):
+    with pytest.raises(yd.ProblemError, match="M_c: is not known here"):
         yd.follow_modes(yd.table1(), M_c=[1e4, 2e4])
     assert "lower sway" in yd.follow_modes(vehicle_problem(), M_c=[3e4, 4e4]).names

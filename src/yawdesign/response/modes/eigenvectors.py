@@ -85,10 +85,10 @@ def spectrum(matrix: Float) -> Eigensystem:
 def _purify(s: Complex, w: Complex, v: Complex, real: int, size: float) -> None:
     """Give roots above the axis that are one within rounding, and their conjugates, pure motions."""
     above = np.arange(real, real + (len(s) - real) // 2)
-    parts = [x[:, above] for x in (w, v)]
-    if purify(s[above], *parts, size):
-        for x, part in zip((w, v), parts, strict=True):
-            x[:, above], x[:, above + len(above)] = part, part.conj()
+    left, right = w[:, above], v[:, above]
+    if purify(s[above], left, right, size):
+        w[:, above], w[:, above + len(above)] = left, left.conj()
+        v[:, above], v[:, above + len(above)] = right, right.conj()
 
 
 def rounding(matrix: Float) -> float:

@@ -30,6 +30,7 @@ from yawdesign.response.modes.eigenvectors import Eigensystem, rounding
 DOUBT = 0.25  # largest error of a partner's prediction, relative to that of the next best root
 TURN = 0.5  # cosine of 60 degrees
 FINEST = 2.0**-30  # of a step, where halving ends
+AT_AXIS = 1e-3  # imaginary part relative to the size of a root at which it arrives at the real axis
 PAIR, REAL, NEAR, LOST = KINDS = ("become a pair", "become two real roots", "pass close by", "cannot be told apart")
 
 
@@ -238,7 +239,10 @@ def _accepted(p: Eigensystem, q: Eigensystem, step: RootStep) -> RootStep:
         return step
     certainty = step.certainty.copy()
     above = [k for k in step.meeting if p.s[k].imag > 0]
-    if len(above) < 2:  # real roots keep their order, and a pair alone is itself: next to a meeting on the real axis
+    at_axis = np.abs(p.s[above].imag) < AT_AXIS * np.abs(p.s[above])
+    # Next to a meeting on the real axis: real roots keep their order, a pair alone is itself, and of pairs that arrive
+    # together it is a convention, as with the real roots that they become, which is which.
+    if len(above) < 2 or at_axis.all():
         certainty[list(step.meeting)] = np.nan
         return replace(step, certainty=certainty, meeting=())
     certainty[list(step.meeting)] = 0.0

@@ -214,7 +214,8 @@ class Naming:
         if group.hunts and self.two_bogies and self.s[i].imag:
             name = f"{group.body} oscillation"
         ends = {owner.end for owner in states} if len({parted(owner.name)[0] for owner in states}) == 1 else set()
-        return name + (ENDS.get(ends.pop(), "") if len(ends) == 1 else "")
+        apart = ENDS.get(ends.pop(), "") if len(ends) == 1 else ""
+        return f"{name}{apart}"
 
     def _bogies(self, roots: Sequence[int], stems: Sequence[str]) -> list[str]:
         """Return which bogies take part in roots: of those of one name the one half is said to be so, the other so.
