@@ -191,3 +191,12 @@ def test_names_on_an_axis_are_the_vehicles():
     with pytest.raises(yd.ProblemError, match="M_c: is not known here"):
         yd.follow_modes(yd.table1(), M_c=[1e4, 2e4])
     assert "lower sway" in yd.follow_modes(vehicle_problem(), M_c=[3e4, 4e4]).names
+
+
+def test_what_moves_the_car_body_most_is_no_hunting():
+    result = yd.modes(vehicle_problem(C_s=3e6, lambda_=0.1))
+    modes = {mode.name: mode for mode in result.modes}
+    hunting, yaw = modes[result.hunting], modes["car body yaw"]
+    assert yaw.conicity > 0.3  # it is fed by the wheels too, and less damped
+    assert yaw.decay_rate < hunting.decay_rate
+    assert result.hunting in ("leading bogie hunting", "trailing bogie hunting")
