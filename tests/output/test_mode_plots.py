@@ -7,11 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from PIL import Image
+from rich.console import Console
 
 import yawdesign as yd
 from yawdesign.output.animation import FRAMES, gif, svg
 from yawdesign.output.mode_plots import mode_paths
-from yawdesign.output.plan_view import bodies, find_mode
+from yawdesign.output.mode_tables import modes_tables
+from yawdesign.output.plan_view import bodies, extent, find_mode
+from yawdesign.problem.parameters import CarBody
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -91,6 +94,61 @@ def test_a_body_without_an_outline_is_not_drawn(modes):
     shape = {name: value for name, value in mode.shape.items() if name not in ("y_m1", "phi_m1")}
     drawn = bodies(modes, replace(mode, shape={**shape, "y_c": 1.0, "phi_c": 0.1, "th_c": 0.0}))
     assert drawn == tuple(body for k, body in enumerate(bodies(modes, mode)) if k != 2)
+
+
+@pytest.fixture(scope="module")
+def vehicle():
+    body = CarBody(M_c=34500, J_c=1.521e6, I_c=124304, l_c=9.5, h_s=0.852, h_t=0.97, K_2z=610e3, C_2z=9800)
+    return replace(yd.table1(), car_body=body)
+
+
+def test_a_vehicle_is_drawn_from_above_and_from_behind(vehicle):
+    result = yd.modes(vehicle)
+    shown = bodies(result, find_mode(result, "lower sway"))
+    assert [body.kind for body in shown].count("wheelset") == 5  # four from above, one from behind
+    above, behind = (body for body in shown if body.kind == "car body")
+    shape, size = find_mode(result, "lower sway").shape, 0.16 * 1.25
+    assert above.y == pytest.approx(size * (shape["y_c"] + 0.852 * shape["th_c"]))
+    for sign, bogie in ((1, shown[4]), (-1, shown[9])):  # over a bogie it moves by what it moves there
+        assert bogie.kind == "frame"
+        over = size * (shape["y_c"] + 0.852 * shape["th_c"] + sign * 9.5 * shape["psi_c"])
+        assert above.y + bogie.x * above.phi == pytest.approx(over)
+    assert behind.phi == pytest.approx(-size * shape["th_c"])  # left, which is left here, goes up with th_c
+    assert behind.shift[0].real < 0 < behind.y.real
+    left, right, bottom, top = extent(result.parameters)
+    for body in shown:
+        corners = np.array([corner for outline in body.outlines for corner in outline]) + body.rest
+        assert np.all((corners > (left, bottom)) & (corners < (right, top)))
+    texts = {text.get_text() for text in yd.plot(result, mode="lower sway").texts}
+    assert "leading bogie from behind" in texts
+    assert len([g for g in ET.fromstring(svg(result)).iter(SVG + "g") if "data-y" in g.attrib]) == len(shown)
+
+
+def test_what_is_optional_is_drawn_too(vehicle):
+    roll = {"I_b": 3000, "K_1z": 1.2e6, "C_1z": 1e4, "h_1": 0.1, "h_2": 0.2, "h_2t": 0.1}
+    result = yd.modes(vehicle.replace(**roll, C_1y=2e4))
+    assert any(mode.name.startswith("frame roll") for mode in result.modes)
+    yd.plot(result, mode=next(mode.name for mode in result.modes if mode.name.startswith("frame roll")))
+    alone = yd.modes(yd.table1().replace(**roll, K_2z=6e5, C_2z=1e4))
+    texts = {text.get_text() for text in yd.plot(alone).texts}
+    assert "from behind" in texts
+
+
+def test_damping_of_a_vehicle_shows_what_matters(vehicle):
+    paths = yd.follow_modes(vehicle, v=np.linspace(200, 400, 12) / 3.6)
+    names = {line.get_label() for line in yd.plot(paths, of="damping_ratio").lines}
+    shown = {name for name in names if not name.startswith("_")}
+    assert len(shown) == 10
+    assert shown >= {"lower sway", "upper sway", "leading bogie hunting", "trailing bogie hunting", "frame lateral"}
+    yd.plot(paths)
+
+
+def test_the_table_tells_low_conicity_sway(vehicle):
+    page = Console(width=200, record=True, file=io.StringIO())
+    page.print(modes_tables(yd.modes(vehicle.replace(C_s=1.047e6, lambda_=0.05))))
+    assert "LOW-CONICITY SWAY: leading bogie hunting grows, and the car body moves 1.7 times" in page.export_text()
+    page.print(modes_tables(yd.modes(vehicle)))
+    assert "SWAY:" not in page.export_text()
 
 
 def test_gif_has_one_cycle(modes):

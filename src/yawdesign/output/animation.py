@@ -6,7 +6,20 @@ from pathlib import Path
 
 from yawdesign.output.mode_plots import mode_shape
 from yawdesign.output.pictures import ANIMATIONS, own_texts
-from yawdesign.output.plan_view import COLOURS, REST, Body, Corner, bodies, caption, find_mode, half_size, subtitle
+from yawdesign.output.plan_view import (
+    COLOURS,
+    REST,
+    Body,
+    Corner,
+    bodies,
+    caption,
+    extent,
+    find_mode,
+    half_size,
+    labels,
+    scale_note,
+    subtitle,
+)
 from yawdesign.output.targets import Target, checked_targets
 from yawdesign.problem.whole_files import write_whole
 from yawdesign.response.modes.named_modes import Modes, NamedMode
@@ -21,9 +34,9 @@ SCRIPT = """(function () {
     var phase = 2 * Math.PI * (time / 1000 / PERIOD % 1), c = Math.cos(phase), s = Math.sin(phase);
     if (REAL) { c = Math.exp(-phase / 1.5); s = 0; }
     parts.forEach(function (part) {
-      var y = number(part, "y"), phi = number(part, "phi"), x = part.getAttribute("data-x");
-      part.setAttribute("transform", "translate(" + x + "," + -(y[0] * c - y[1] * s) + ") rotate(" +
-        -(phi[0] * c - phi[1] * s) * 180 / Math.PI + ")");
+      function at(name) { var z = number(part, name); return z[0] * c - z[1] * s + (z[2] || 0); }
+      part.setAttribute("transform", "translate(" + at("x") + "," + -at("y") + ") rotate(" +
+        -at("phi") * 180 / Math.PI + ")");
     });
     requestAnimationFrame(step);
   }
@@ -76,7 +89,7 @@ def gif(result: Modes, mode: str | None = None) -> bytes:
 
     pictures = []
     for k in range(FRAMES):
-        figure = Figure(figsize=(5.6, 4.2), dpi=80, layout="constrained")
+        figure = Figure(figsize=_figure_size(result), dpi=80, layout="constrained")
         mode_shape(result, figure.add_subplot(), mode=mode, phase=2 * math.pi * k / FRAMES)
         picture = io.BytesIO()
         figure.savefig(picture, format="png")
@@ -87,6 +100,12 @@ def gif(result: Modes, mode: str | None = None) -> bytes:
     return out.getvalue()
 
 
+def _figure_size(result: Modes) -> tuple[float, float]:
+    """Return width and height of the pictures [in]: one bogie in plan view is nearly a square, a vehicle is long."""
+    left, right, bottom, top = extent(result.parameters)
+    return (5.6, 4.2) if right - left < 2 * (top - bottom) else (7.6, 3.4)
+
+
 def svg(result: Modes, mode: str | None = None) -> bytes:
     """Return an SVG of a mode, to stand alone or inside an HTML page. Arguments as in `animate`."""
     chosen = find_mode(result, mode)
@@ -94,20 +113,21 @@ def svg(result: Modes, mode: str | None = None) -> bytes:
 
 
 def _svg(result: Modes, mode: NamedMode) -> str:
-    length, width = (SCALE * size for size in half_size(result))
-    shown = bodies(result, mode)
-    rails = [_line(-length, length, side * SCALE * result.parameters["b"]) for side in (1, -1)]
-    at_rest = [_group(body, f'fill="none" stroke="{REST}"', body.x, 0.0, 0.0) for body in shown]
+    p = result.parameters
+    left, right, bottom, top = (SCALE * x for x in extent(p))
+    shown, length = bodies(result, mode), SCALE * half_size(p)[0]
+    rails = [_line(-length, length, side * SCALE * p["b"]) for side in (1, -1)]
+    at_rest = [_group(body, f'fill="none" stroke="{REST}"') for body in shown]
+    middle = (left + right) / 2
     texts = [
-        f'<text x="0" y="{y:.1f}" text-anchor="middle" font-size="12" font-family="sans-serif">{line}</text>'
-        for y, line in (
-            (-width - 20, caption(mode)),
-            (-width - 4, subtitle(result)),
-            (width + 8, "amplitude not to scale; direction of travel: to the right"),
-        )
+        _text(middle, -top - 20, caption(mode)),
+        _text(middle, -top - 4, subtitle(result)),
+        *(_text(SCALE * x, -SCALE * y, text) for x, y, text in labels(p)),
+        _text(middle, -bottom + 8, f"{scale_note(p)}; direction of travel: to the right"),
     ]
-    box = f"{-length:.1f} {-width - 36:.1f} {2 * length:.1f} {2 * width + 52:.1f}"
-    size = f'width="{2 * length:.0f}" height="{2 * width + 52:.0f}"'
+    height = top - bottom + 52
+    box = f"{left:.1f} {-top - 36:.1f} {right - left:.1f} {height:.1f}"
+    size = f'width="{right - left:.0f}" height="{height:.0f}"'
     script = SCRIPT.replace("PERIOD", f"{PERIOD}").replace("REAL", "true" if mode.frequency == 0 else "false")
     return "\n".join(
         [
@@ -123,21 +143,30 @@ def _svg(result: Modes, mode: NamedMode) -> str:
     )
 
 
+def _text(x: float, y: float, text: str) -> str:
+    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="middle" font-size="12" font-family="sans-serif">{text}</text>'
+
+
 def _line(start: float, end: float, y: float) -> str:
     return f'<line x1="{start:.1f}" x2="{end:.1f}" y1="{y:.1f}" y2="{y:.1f}" stroke="{REST}" stroke-width="3"/>'
 
 
 def _moving(body: Body) -> str:
-    style = f'fill="{COLOURS[body.kind]}" fill-opacity="0.75" stroke="black"'
-    motion = (
-        f'data-x="{SCALE * body.x:.2f}" data-y="{SCALE * body.y.real:.4f} {SCALE * body.y.imag:.4f}" '
-        f'data-phi="{body.phi.real:.6f} {body.phi.imag:.6f}"'
-    )
-    return _group(body, f"{style} {motion}", body.x, body.y.real, body.phi.real)
+    style = f'fill="{COLOURS[body.kind]}" fill-opacity="{body.opacity}" stroke="black"'
+    (x, y), (dx, dy) = body.rest, body.shift
+    motion = f'data-x="{_path(dx, x)}" data-y="{_path(dy, y)}" data-phi="{body.phi.real:.6f} {body.phi.imag:.6f}"'
+    return _group(body, f"{style} {motion}", 1.0)
 
 
-def _group(body: Body, style: str, x: float, y: float, phi: float) -> str:
-    place = f'transform="translate({SCALE * x:.2f},{-SCALE * y:.3f}) rotate({-math.degrees(phi):.4f})"'
+def _path(shift: complex, rest: float) -> str:
+    return f"{SCALE * shift.real:.4f} {SCALE * shift.imag:.4f} {SCALE * rest:.2f}"
+
+
+def _group(body: Body, style: str, moved: float = 0.0) -> str:
+    """Return a body at rest (moved 0) or where it is at phase zero (moved 1)."""
+    x, y = (rest + moved * shift.real for rest, shift in zip(body.rest, body.shift, strict=True))
+    turn = math.degrees(moved * body.phi.real)
+    place = f'transform="translate({SCALE * x:.2f},{-SCALE * y:.3f}) rotate({-turn:.4f})"'
     return f"<g {style} {place}>{''.join(_polygon(outline) for outline in body.outlines)}</g>"
 
 

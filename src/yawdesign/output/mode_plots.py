@@ -7,23 +7,39 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from yawdesign.output.pictures import new_axes
-from yawdesign.output.plan_view import COLOURS, REST, Body, bodies, caption, find_mode, half_size, subtitle
+from yawdesign.output.plan_view import (
+    COLOURS,
+    REST,
+    Body,
+    bodies,
+    caption,
+    extent,
+    find_mode,
+    half_size,
+    labels,
+    scale_note,
+    subtitle,
+)
 from yawdesign.problem import ProblemError, to_unit
 from yawdesign.problem.table import as_choice
 from yawdesign.study.axes import ROWS
+from yawdesign.vehicle.motions import BOGIES
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.axes import Axes
 
     from yawdesign.response.modes.followed_modes import FollowedModes
     from yawdesign.response.modes.named_modes import Modes
 
 STABLE, UNSTABLE = "#e8f3ea", "#fbeae8"
+MOST = 10  # modes of a vehicle in one picture, each with a colour of its own
 QUANTITIES = ("root_locus", "damping_ratio", "frequency")
 
 
 def mode_shape(result: "Modes", ax: "Axes | None" = None, *, mode: str | None = None, phase: float = 0.0) -> "Axes":
-    """Draw a mode in plan view over the bogie at rest.
+    """Draw a mode in plan view over the vehicle at rest; what rolls is drawn from behind too.
 
     Parameters
     ----------
@@ -39,33 +55,36 @@ def mode_shape(result: "Modes", ax: "Axes | None" = None, *, mode: str | None = 
     from matplotlib.patches import Polygon
 
     ax = new_axes(ax)
-    chosen = find_mode(result, mode)
-    _track(ax, result)
+    chosen, p = find_mode(result, mode), result.parameters
+    _track(ax, p)
     factor = cmath.exp(1j * phase) if chosen.frequency else complex(math.exp(-phase / 1.5))
     for body in bodies(result, chosen):
         for outline in body.outlines:
-            at_rest = [(body.x + x, y) for x, y in outline]
+            at_rest = _placed(body, outline, 0j)
             ax.add_patch(Polygon(at_rest, closed=True, fill=False, edgecolor=REST, linewidth=1.0, zorder=1))
-            moved = _placed(body, outline, factor)
-            colour = COLOURS[body.kind]
-            ax.add_patch(Polygon(moved, closed=True, facecolor=colour, edgecolor="black", alpha=0.75, zorder=2))
-    ax.set_title(f"{caption(chosen)}\n{subtitle(result)}; amplitude not to scale", fontsize="medium")
+            moved, colour = _placed(body, outline, factor), COLOURS[body.kind]
+            look = {"facecolor": colour, "alpha": body.opacity, "edgecolor": "black"}
+            ax.add_patch(Polygon(moved, closed=True, zorder=2, **look))
+    for x, y, text in labels(p):
+        ax.text(x, y, text, ha="center", va="center", fontsize="small")
+    ax.set_title(f"{caption(chosen)}\n{subtitle(result)}; {scale_note(p)}", fontsize="medium")
     return ax
 
 
-def _track(ax: "Axes", result: "Modes") -> None:
-    length, width = half_size(result)
-    ax.set(xlim=(-length, length), ylim=(-width, width), aspect="equal", xticks=[], yticks=[])
+def _track(ax: "Axes", p: "Mapping[str, float]") -> None:
+    left, right, bottom, top = extent(p)
+    end = half_size(p)[0]
+    ax.set(xlim=(left, right), ylim=(bottom, top), aspect="equal", xticks=[], yticks=[])
     for side in (1, -1):
-        ax.axhline(side * result.parameters["b"], color=REST, linewidth=3, zorder=0)
-    ax.annotate("", (length - 0.1, -width + 0.14), (length - 0.8, -width + 0.14), arrowprops={"arrowstyle": "->"})
-    ax.text(length - 0.85, -width + 0.14, "direction of travel", ha="right", va="center", fontsize="small")
+        ax.plot([left, end], [side * p["b"]] * 2, color=REST, linewidth=3, zorder=0)
+    ax.annotate("", (end - 0.1, bottom + 0.14), (end - 0.8, bottom + 0.14), arrowprops={"arrowstyle": "->"})
+    ax.text(end - 0.85, bottom + 0.14, "direction of travel", ha="right", va="center", fontsize="small")
 
 
 def _placed(body: Body, outline: Any, factor: complex) -> list[tuple[float, float]]:
-    y, phi = (body.y * factor).real, (body.phi * factor).real
-    c, s = math.cos(phi), math.sin(phi)
-    return [(body.x + c * px - s * py, y + s * px + c * py) for px, py in outline]
+    x, y = (rest + (shift * factor).real for rest, shift in zip(body.rest, body.shift, strict=True))
+    c, s = math.cos(phi := (body.phi * factor).real), math.sin(phi)
+    return [(x + c * px - s * py, y + s * px + c * py) for px, py in outline]
 
 
 def mode_paths(
@@ -87,7 +106,8 @@ def mode_paths(
     of : {"root_locus", "damping_ratio", "frequency"}
         What to draw.
     widest : float
-        Modes that decay faster than this everywhere [1/s] are left out.
+        Modes that decay faster than this everywhere [1/s] are left out. Of a vehicle with two bogies the ten of
+        least damping ratio are drawn, and of two that differ in how the bogies move together the less damped one.
     target : float, optional
         A damping ratio [-] to draw as a line, such as 0.05.
     """
@@ -96,9 +116,25 @@ def mode_paths(
     shown = [k for k in range(len(result.names)) if np.nanmax(result.eigenvalues[:, k].real) > -widest]
     if not shown:
         raise ProblemError(f"all modes decay faster than {widest:g} 1/s: give a larger `widest`")
+    shown = _that_matter(result, shown)
     if of == "root_locus":
         return _root_locus(result, ax, shown, widest, target)
     return _over_parameter(result, ax, shown, of, target)
+
+
+def _that_matter(result: "FollowedModes", shown: list[int]) -> list[int]:
+    """Return which modes are drawn: of those that two bogies have alike the less damped ones, and not too many."""
+    least = {k: float(np.nanmin(result.damping_ratio[:, k])) for k in shown}
+    first: dict[str, int] = {}
+    for k in sorted(shown, key=least.__getitem__):
+        first.setdefault(_label(result, k), k)
+    return shown if len(first) == len(shown) else sorted([*first.values()][:MOST])
+
+
+def _label(result: "FollowedModes", k: int) -> str:
+    """Return the name of a mode without what it says of the bogies."""
+    name = result.names[k]
+    return next((name.removesuffix(f", {words}") for words in BOGIES.values() if name.endswith(f", {words}")), name)
 
 
 def axis_in_unit(result: "FollowedModes") -> tuple[np.ndarray[Any, Any], str]:
@@ -163,11 +199,11 @@ def _label_ends(ax: "Axes", result: "FollowedModes", inside: list[int], top: flo
             k != m and abs(x - far) < 0.3 * (right - left) and abs(y - up) < 0.08 * top for m, (far, up) in ends.items()
         ]
         if not any(near):
-            ax.annotate(result.names[k], (x, y), (8, 0), textcoords="offset points", fontsize="x-small", va="center")
+            ax.annotate(_label(result, k), (x, y), (8, 0), textcoords="offset points", fontsize="x-small", va="center")
             continue
         height = max(height, y - 0.05 * top)
         line = {"arrowstyle": "-", "color": "0.5", "linewidth": 0.6}
-        ax.annotate(result.names[k], (x, y), (0.06 * right, height), fontsize="x-small", va="center", arrowprops=line)
+        ax.annotate(_label(result, k), (x, y), (0.06 * right, height), fontsize="x-small", va="center", arrowprops=line)
         height += 0.05 * top
 
 
@@ -176,7 +212,7 @@ def _over_parameter(result: "FollowedModes", ax: "Axes", shown: list[int], of: s
     waving = [k for k in shown if np.any(result.frequency[:, k] > 0)]
     for k in waving:
         y = result.frequency[:, k] if of == "frequency" else 100 * result.damping_ratio[:, k]
-        ax.plot(values, np.where(result.frequency[:, k] > 0, y, np.nan), linewidth=1.8, label=result.names[k])
+        ax.plot(values, np.where(result.frequency[:, k] > 0, y, np.nan), linewidth=1.8, label=_label(result, k))
     if of == "damping_ratio":
         _shade_unstable(ax, result, waving)
         if target is not None:

@@ -1,6 +1,6 @@
-"""A bogie seen from above: what its bodies look like, and where a mode puts them."""
+"""A vehicle seen from above, and from behind if it rolls: what its bodies look like, and where a mode puts them."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -13,24 +13,30 @@ if TYPE_CHECKING:
 Corner = tuple[float, float]
 Outlines = Callable[[Mapping[str, float]], tuple[tuple[Corner, ...], ...]]
 AMPLITUDE = 0.16  # drawn size of the largest displacement, relative to the half wheelbase
-COLOURS = {"frame": "#4c72b0", "wheelset": "#555555", "motor": "#dd8452"}
+COLOURS = {"frame": "#4c72b0", "wheelset": "#555555", "motor": "#dd8452", "car body": "#b9d3c2"}
+OPACITY = {"car body": 0.35}
+SOLID = 0.75
 REST = "#c8ccd2"
+APART = 2.2  # half the drawn distance of the bogie centres at most, in half wheelbases: car bodies are long
+SPRINGS, FLOOR, ROOF = 0.35, 0.1, 2.6  # springs above the axle; floor and roof of the car body above them [m]
 
 
 @dataclass(frozen=True)
 class Body:
-    """One body in plan view.
+    """One body as drawn, in plan view or seen from behind.
 
     Parameters
     ----------
-    kind : {"frame", "wheelset", "motor"}
+    kind : {"frame", "wheelset", "motor", "car body"}
         What it is.
     x : float
-        Its centre of mass along the track [m], forward.
+        Where its centre of mass is at rest on the drawing, to the right [m]: along the track, forward, in plan view.
     outlines : tuple of tuple of (x, y)
-        Polygons [m] about the centre of mass; y is to the left.
+        Polygons [m] about the centre of mass; in plan view y is to the left.
     y, phi : complex
-        Lateral displacement [m] and yaw [rad] as drawn; their real parts at phase zero.
+        Lateral displacement [m] and yaw, or roll seen from behind, [rad] as drawn; their real parts at phase zero.
+    height : float, optional
+        Where the centre of mass is at rest on the drawing, upwards [m], of a body seen from behind.
     """
 
     kind: str
@@ -38,6 +44,22 @@ class Body:
     outlines: tuple[tuple[Corner, ...], ...]
     y: complex
     phi: complex
+    height: float | None = None
+
+    @property
+    def rest(self) -> Corner:
+        """Where its centre of mass is at rest on the drawing [m]."""
+        return self.x, self.height or 0.0
+
+    @property
+    def shift(self) -> tuple[complex, complex]:
+        """By how much it moves on the drawing, to the right and upwards [m]."""
+        return (0j, self.y) if self.height is None else (-self.y, 0j)
+
+    @property
+    def opacity(self) -> float:
+        """Of its colour."""
+        return OPACITY.get(self.kind, SOLID)
 
 
 def box(x: float, y: float, half_length: float, half_width: float) -> tuple[Corner, ...]:
@@ -59,19 +81,75 @@ def bodies(result: "Modes", mode: "NamedMode") -> tuple[Body, ...]:
     """Return the bodies of a vehicle, moved as in a mode, the last on top; one without an outline here is not drawn."""
     p, size = result.parameters, AMPLITUDE * result.parameters["a"]
     shape = {x: size * value for x, value in mode.shape.items()}
-    return tuple(
+    plan = tuple(
         Body(kind, x, outlines(p), shape.get(f"y_{body}", 0j), shape.get(f"phi_{body}", 0j))
         for body, kind, x, outlines in _drawn(p)
         if {f"y_{body}", f"phi_{body}"} & set(shape)
     )
+    return (*plan, *_car_body(p, shape), *_from_behind(p, shape))
 
 
-def _drawn(p: Mapping[str, float]) -> tuple[tuple[str, str, float, Outlines], ...]:
-    """Return what is known here: a body's name in coordinates, its kind, its place [m] and its outlines."""
+def _bogies(p: Mapping[str, float]) -> tuple[tuple[str, float], ...]:
+    """Return each bogie's end in the names of coordinates, and its place in the drawing [m]."""
+    return (("1", _centre(p)), ("2", -_centre(p))) if "l_c" in p else (("", 0.0),)
+
+
+def _centre(p: Mapping[str, float]) -> float:
+    """Return half the drawn distance of the bogie centres [m]."""
+    return max(min(p["l_c"], APART * p["a"]), 1.3 * p["a"])
+
+
+def _drawn(p: Mapping[str, float]) -> Iterator[tuple[str, str, float, Outlines]]:
+    """Yield what is known here: a body's name in coordinates, its kind, its place [m] and its outlines."""
     a, a_0 = p["a"], p.get("a_0", 0.0)
-    wheelsets = ("w1", "wheelset", a, _wheelset), ("w2", "wheelset", -a, _wheelset)
-    motors = ("m1", "motor", a_0, _motor), ("m2", "motor", -a_0, _motor)
-    return (*wheelsets, *motors, ("b", "frame", 0.0, _frame))
+    for bogie, x in _bogies(p):
+        yield from ((f"w{bogie}{k}", "wheelset", x + place, _wheelset) for k, place in ((1, a), (2, -a)))
+        yield from ((f"m{bogie}{k}", "motor", x + place, _motor) for k, place in ((1, a_0), (2, -a_0)))
+        yield f"b{bogie}", "frame", x, _frame
+
+
+def _car_body(p: Mapping[str, float], shape: Mapping[str, complex]) -> Iterator[Body]:
+    """Yield the car body at the height of the secondary springs, where the bogies carry it."""
+    if "l_c" in p:
+        half = _centre(p)
+        floor = shape["y_c"] + p["h_s"] * shape["th_c"]
+        width = _half_width(p)
+        ends = half + p["a"] + 0.6
+        # Over the bogies it moves as it does; as these are drawn nearer together, it turns by more.
+        yield Body("car body", 0.0, (box(0, 0, ends, width),), floor, shape["psi_c"] * p["l_c"] / half)
+
+
+def _from_behind(p: Mapping[str, float], shape: Mapping[str, complex]) -> Iterator[Body]:
+    """Yield the leading bogie, or the only one, and the car body over it, seen from behind."""
+    if not rolls(p):
+        return
+    (bogie, _), *_ = _bogies(p)
+    x, ground = _end_view(p), -half_size(p)[1] + 0.5
+    axle = ground + p["r"]
+    # Its angles are drawn to the left, which is counted upwards in plan view.
+    wheels = (box(0, 0, max(p["b"], p["b_1"]) + 0.1, 0.07), *(box(s * p["b"], 0, 0.065, p["r"]) for s in (1, -1)))
+    yield Body("wheelset", x, wheels, shape[f"y_w{bogie}1"], 0j, axle)
+    frame = (box(0, 0, p["b_1"] + 0.09, 0.09),)
+    yield Body("frame", x, frame, shape[f"y_b{bogie}"], -shape.get(f"th_b{bogie}", 0j), axle + 0.15)
+    if "l_c" in p:
+        low, high = FLOOR - p["h_s"], ROOF - p["h_s"]
+        body = (box(0, (low + high) / 2, _half_width(p), (high - low) / 2),)
+        over = shape["y_c"] + p["l_c"] * shape["psi_c"]
+        yield Body("car body", x, body, over, -shape["th_c"], axle + SPRINGS + p["h_s"])
+
+
+def rolls(p: Mapping[str, float]) -> bool:
+    """Return whether something rolls, so that the vehicle is drawn from behind too."""
+    return "I_c" in p or "I_b" in p
+
+
+def _end_view(p: Mapping[str, float]) -> float:
+    """Return where the vehicle seen from behind stands [m]."""
+    return half_size(p)[0] + _half_width(p) + 0.55
+
+
+def _half_width(p: Mapping[str, float]) -> float:
+    return max(p["b"], p["b_1"]) + 0.3
 
 
 def _wheelset(p: Mapping[str, float]) -> tuple[tuple[Corner, ...], ...]:
@@ -89,10 +167,27 @@ def _frame(p: Mapping[str, float]) -> tuple[tuple[Corner, ...], ...]:
     return (*beams, box(0, 0, 0.12, p["b_1"] - 0.09))
 
 
-def half_size(result: "Modes") -> Corner:
-    """Return half the length and half the width of what a picture must show [m]."""
-    p = result.parameters
-    return p["a"] + 1.1 * p["r"] + 0.25, max(p["b"], p["b_1"]) + 0.55
+def half_size(p: Mapping[str, float]) -> Corner:
+    """Return half the length and half the height of what the plan view must show [m]."""
+    width = max(p["b"], p["b_1"]) + 0.55
+    length = p["a"] + 1.1 * p["r"] + 0.25
+    if "l_c" in p:
+        return length + _centre(p), max(width + 0.2, (p["r"] + SPRINGS + ROOF) / 2 + 0.6)
+    return length, width
+
+
+def extent(p: Mapping[str, float]) -> tuple[float, float, float, float]:
+    """Return what a picture must show: left, right, bottom, top [m]."""
+    length, width = half_size(p)
+    right = _end_view(p) + _half_width(p) + 0.5 if rolls(p) else length
+    return -length, right, -width, width
+
+
+def labels(p: Mapping[str, float]) -> Iterator[tuple[float, float, str]]:
+    """Yield what is written into a picture of more than one view, and where [m]."""
+    if rolls(p):
+        width, ends = half_size(p)[1], _bogies(p)
+        yield _end_view(p), -width + 0.14, "leading bogie from behind" if len(ends) > 1 else "from behind"
 
 
 def caption(mode: "NamedMode") -> str:
@@ -105,3 +200,9 @@ def caption(mode: "NamedMode") -> str:
 def subtitle(result: "Modes") -> str:
     """Return the operating point, in one line."""
     return f"{format_quantity(result.speed, 'km/h', 4)}, C_s = {format_quantity(result.C_s, 'kN·s/m', 4)}"
+
+
+def scale_note(p: Mapping[str, float]) -> str:
+    """Return what is not to scale."""
+    shortened = "l_c" in p and _centre(p) < p["l_c"]
+    return "amplitude and distance of the bogies not to scale" if shortened else "amplitude not to scale"

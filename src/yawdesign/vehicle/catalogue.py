@@ -46,9 +46,9 @@ def with_car_body(p: Parameters, flags: Collection[str], bogie: Callable[[Parame
     tilting = -980665 * p["M_c"] / 100000 * p["h_s"]  # the standard acceleration of free fall, exactly
     weight = [Link((Spring(tilting),), {"th_c": 1})] if OVERTURNING in flags else []
     return [
-        Mass("y_c", p["M_c"], body="car body", name="car body sway"),
-        Mass("psi_c", p["J_c"], unit="rad", body="car body", name="car body yaw"),
-        Mass("th_c", p["I_c"], unit="rad", body="car body", name="car body sway"),
+        Mass("y_c", p["M_c"], body="car body", name="sway", creeping="overdamped sway"),
+        Mass(*("psi_c", p["J_c"], "rad", "car body"), name="car body yaw", creeping="overdamped car body yaw"),
+        Mass("th_c", p["I_c"], unit="rad", body="car body", name="sway", creeping="overdamped sway"),
         Pair(tuple(leading), own=coordinates(leading), rear=tuple(trailing)),
         *weight,
     ]

@@ -51,7 +51,7 @@ def test_pictures(tmp_path):
     ("arguments", "message"),
     [
         (["--over", "C_s=1:2"], "write LOW:HIGH:N"),
-        (["--over", "C_z=1:2:3"], "did you mean C_t"),
+        (["--over", "K_mm=1:2:3"], "did you mean K_m"),
         (["--over", "C_s=2 kN s/m:1 kN s/m:3"], "less than min"),
         (["--over", "C_s=1:2:many"], "many"),
         (["--over", "C_s=0:2:3:log"], "must begin"),

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 import yawdesign as yd
 from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.response.modes.named_modes import modes_at
-from yawdesign.response.modes.names import owners
+from yawdesign.response.modes.participation import owners
 from yawdesign.response.run.system import System
 from yawdesign.vehicle.catalogue import CATALOGUE, trailer_bogie
 from yawdesign.vehicle.elements import Link, Maxwell, Pair
@@ -116,8 +116,8 @@ def test_the_worst_of_a_range_of_speeds():
     assert yd.modes(problem).speed == pytest.approx(300 / 3.6)
 
 
-def with_primary_dampers(p, equations):
-    *others, wheelsets = trailer_bogie(p, equations)
+def with_primary_dampers(p, equations, flags):
+    *others, wheelsets = trailer_bogie(p, equations, flags)
     damper = Link((Maxwell(1e7, 2e4),), {"y_b": 1, "y_w": -1}, lever={"phi_b": p["a"]}, name="primary damper")
     return [*others, Pair((*wheelsets.elements, damper), own=wheelsets.own)]
 

@@ -12,7 +12,9 @@ import numpy as np
 import scipy.linalg as sl
 
 from yawdesign.hunting.arrays import Bools, Complex, Float, Index
+from yawdesign.response.modes.doublets import purify
 from yawdesign.vehicle.determinant import independent_parts, reached_from
+from yawdesign.vehicle.elements import parted
 
 ROUNDING = 1e-13  # relative to the size of the matrix
 
@@ -75,7 +77,18 @@ def spectrum(matrix: Float) -> Eigensystem:
     w = np.hstack([w[:, real], w[:, above], w[:, above].conj()]).conj()
     scale = np.sum(w * v, axis=0)
     # Where two roots coincide the product vanishes; the vectors then say nothing, but they stay finite.
-    return Eigensystem(s, v, np.asarray(w / np.where(scale == 0, 1, scale), dtype=complex), len(real))
+    w = np.asarray(w / np.where(scale == 0, 1, scale), dtype=complex)
+    _purify(s, w, v, len(real), rounding(matrix))
+    return Eigensystem(s, v, w, len(real))
+
+
+def _purify(s: Complex, w: Complex, v: Complex, real: int, size: float) -> None:
+    """Give roots above the axis that are one within rounding, and their conjugates, pure motions."""
+    above = np.arange(real, real + (len(s) - real) // 2)
+    left, right = w[:, above], v[:, above]
+    if purify(s[above], left, right, size):
+        w[:, above], w[:, above + len(above)] = left, left.conj()
+        v[:, above], v[:, above + len(above)] = right, right.conj()
 
 
 def rounding(matrix: Float) -> float:
@@ -131,6 +144,9 @@ def _driven_by(matrix: Float, states: Index) -> Index:
 def unfold(names: Sequence[str], values: Complex, *, forces: bool = False) -> dict[str, complex]:
     """Return what belongs to each end, given half the sum (a name ending in +) and half the difference (in -).
 
+    Where pairs stand inside a pair, the outer end comes first: of ``y_w+-`` and the like the ends ``y_w11``, ...,
+    ``y_w22``; of ``y_w1+`` and ``y_w1-`` the inner ones.
+
     Parameters
     ----------
     names : sequence of str
@@ -141,14 +157,23 @@ def unfold(names: Sequence[str], values: Complex, *, forces: bool = False) -> di
         The values are not displacements but what multiplies them (a left eigenvector): half of each then belongs to
         either end.
     """
-    found = dict(zip(names, values, strict=True))
-    out: dict[str, complex] = {}
     half = 0.5 if forces else 1.0
-    for name, value in found.items():
-        if name.endswith("+"):
-            stem = name[:-1]
-            other = found[stem + "-"]
-            out[stem + "1"], out[stem + "2"] = complex(half * (value + other)), complex(half * (value - other))
-        elif not name.endswith("-"):
-            out[name] = complex(value)
+    out = {name: complex(value) for name, value in zip(names, values, strict=True)}
+    while any("+" in parted(name)[1] for name in out):
+        found, out = out, {}
+        for name, value in found.items():
+            stem, ends = parted(name)
+            outer, sign, inner = _first_sign(ends)
+            if sign == "+":
+                other = found[f"{stem}{outer}-{inner}"]
+                out[f"{stem}{outer}1{inner}"] = half * (value + other)
+                out[f"{stem}{outer}2{inner}"] = half * (value - other)
+            elif not sign:
+                out[name] = value
     return out
+
+
+def _first_sign(ends: str) -> tuple[str, str, str]:
+    """Return the ends before the first sign, that sign, and what stands behind it."""
+    outer = ends[: len(ends) - len(ends.lstrip("12"))]
+    return outer, ends[len(outer) : len(outer) + 1], ends[len(outer) + 1 :]

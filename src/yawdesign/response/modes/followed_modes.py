@@ -14,7 +14,6 @@ from yawdesign.hunting.eigenvalues import backward_error, folded_matrix
 from yawdesign.hunting.verdict import EXACT, given_damping, stability
 from yawdesign.problem import PARAMETERS, Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
-from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import Parameter, as_several, key_of
@@ -138,7 +137,7 @@ def follow_modes(problem: Problem, **axis: Sequence[float | str] | NDArray[np.fl
     """
     name, row, values = _axis(problem, axis)
     C_s = None if name == "C_s" else given_damping(problem)
-    vehicle = Model.of(problem).at(problem.bogie.parameters(), v=problem.speeds[0])
+    vehicle = Model.of(problem).at(problem.parameters(), v=problem.speeds[0])
     matrices = _matrices(vehicle, name, values)
     home = _home(problem, vehicle, name, values, matrices)
     places = parts(np.any([matrices(value) != 0 for value in (*values, home)], axis=0))
@@ -180,7 +179,7 @@ def _axis(problem: Problem, axis: Mapping[str, Any]) -> tuple[str, Parameter, Fl
     if len(axis) != 1:
         listed = ", ".join(axis) or "none given"
         raise ProblemError(f"modes are followed along one parameter, not {len(axis)}: {listed}")
-    (key, given), allowed = next(iter(axis.items())), (*SPEED_NAMES, *parameter_keys(problem.bogie.kind))
+    (key, given), allowed = next(iter(axis.items())), (*SPEED_NAMES, *problem.keys)
     key = "v" if key == "speed" else key_of(key)
     mistakes = Mistakes()
     with mistakes.under(key):

@@ -8,6 +8,8 @@ Roots are continuous in every parameter; that is what makes a root "the same". B
 * no two roots turn around each other by more than 60 degrees: in a near-coalescence they turn by up to 180, and whoever
   steps over it exchanges them.
 
+Of roots that are all but one at both ends (see :mod:`yawdesign.response.modes.doublets`) the second alone is asked.
+
 Every one of these conditions reads the same from either end, so a path does not depend on the direction. Real roots of
 one part of a motion cannot pass each other without meeting; where two meet they leave the axis as a conjugate pair. By
 convention the larger real root belongs to the root above the axis.
@@ -22,11 +24,13 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from yawdesign.hunting.arrays import Complex, Float, Index
+from yawdesign.response.modes.doublets import by_motion, clusters, near
 from yawdesign.response.modes.eigenvectors import Eigensystem, rounding
 
 DOUBT = 0.25  # largest error of a partner's prediction, relative to that of the next best root
 TURN = 0.5  # cosine of 60 degrees
 FINEST = 2.0**-30  # of a step, where halving ends
+AT_AXIS = 1e-3  # imaginary part relative to the size of a root at which it arrives at the real axis
 PAIR, REAL, NEAR, LOST = KINDS = ("become a pair", "become two real roots", "pass close by", "cannot be told apart")
 
 
@@ -110,11 +114,13 @@ def link(start: Place, end: Place) -> RootStep:
         return _at_a_meeting(start, end)
     change = end.matrix - start.matrix
     error = np.abs(_distance(p.s, q.s) - (p.velocity(change)[:, None] + q.velocity(change)) / 2)
-    partner = _pairs(p, error)
-    certainty = _certainty(p, q, error, partner)
-    turned = _turned(p, q, partner)
-    alike = _most_alike(p, q)
-    doubt = (certainty <= 1 - DOUBT) | turned | ((alike != partner) & (q.s[alike] != q.s[partner]))
+    alike = _likeness(p, q)
+    partner, one = _told_by_motion(p, q, alike, _pairs(p, error))
+    certainty = _certainty(p, q, error, partner, one)
+    turned = _turned(p, q, partner, one)
+    most = alike.argmax(axis=1)
+    unlike = (most != partner) & ~one[np.arange(len(most)), np.argsort(partner)[most]]
+    doubt = (certainty <= 1 - DOUBT) | turned | unlike
     return RootStep(
         start.value, end.value, partner, certainty, not doubt.any(), tuple(np.flatnonzero(doubt).tolist()), LOST
     )
@@ -131,37 +137,51 @@ def _pairs(p: Eigensystem, error: Float) -> Index:
     return np.concatenate([np.arange(p.real), chosen + p.real, chosen + above]).astype(np.intp)
 
 
-def _certainty(p: Eigensystem, q: Eigensystem, error: Float, partner: Index) -> Float:
+def _told_by_motion(p: Eigensystem, q: Eigensystem, alike: Float, partner: Index) -> tuple[Index, NDArray[np.bool_]]:
+    """Return the partners, and which roots need not be told apart by their place.
+
+    These are zeros of bodies that no spring holds, and roots that are all but one at both ends: real ones, which keep
+    their order, and others if their motions tell which is which.
+    """
+    one = near(p.s) & near(q.s[partner])
+    partner, pairs = partner.copy(), (len(p.s) - p.real) // 2
+    for same in clusters(p.s, one):
+        told = by_motion(alike, same, partner[same])
+        if told is None:
+            one[np.ix_(same, same)] = False
+        else:
+            partner[same], partner[same + pairs] = told, told + pairs
+    return partner, one
+
+
+def _certainty(p: Eigensystem, q: Eigensystem, error: Float, partner: Index, one: NDArray[np.bool_]) -> Float:
     """Return how much better each partner is predicted than any other root, seen from both ends."""
     n = np.arange(len(partner))
     own = error[n, partner]
-    # Roots that are one at both ends (zeros, of bodies that no spring holds) need not be told apart.
-    same = (p.s[:, None] == p.s) & (q.s[partner][:, None] == q.s[partner])
     others = error.copy()
-    others[:, partner] = np.where(same, np.inf, error[:, partner])
+    others[:, partner] = np.where(one | np.eye(len(n), dtype=bool), np.inf, error[:, partner])
     next_best = np.minimum(others.min(axis=1), others.min(axis=0)[partner])
     return np.asarray(1 - np.minimum(1, own / np.maximum(next_best, np.finfo(float).tiny)))
 
 
-def _turned(p: Eigensystem, q: Eigensystem, partner: Index) -> NDArray[np.bool_]:
+def _turned(p: Eigensystem, q: Eigensystem, partner: Index, one: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return which roots above the axis turn too far around another one."""
     r, n = p.real, len(p.s)
     above = np.arange(r, r + (n - r) // 2)
     before, after = (_distance(s, s) for s in (p.s[above], q.s[partner[above]]))
     cosine = np.real(before * after.conj())
-    turned = (cosine < TURN * np.abs(before) * np.abs(after)) & ~np.eye(len(above), dtype=bool)
+    turned = (cosine < TURN * np.abs(before) * np.abs(after)) & ~one[np.ix_(above, above)]
     out = np.zeros(n, dtype=bool)
     out[above] = out[above + len(above)] = turned.any(axis=1)
     return out
 
 
-def _most_alike(p: Eigensystem, q: Eigensystem) -> Index:
-    """Return for each root the one whose eigenvectors are most like its own.
+def _likeness(p: Eigensystem, q: Eigensystem) -> Float:
+    """Return how much the eigenvectors of each root are like those of each root of the other end, shape (p, q).
 
     The products of left and right eigenvectors of two places do not depend on units, and each row of them sums to 1.
     """
-    product = np.abs((p.left.T @ q.right) * (q.left.T @ p.right).T)
-    return np.asarray(product.argmax(axis=1), dtype=np.intp)
+    return np.asarray(np.abs((p.left.T @ q.right) * (q.left.T @ p.right).T))
 
 
 def _at_a_meeting(start: Place, end: Place) -> RootStep:
@@ -219,7 +239,10 @@ def _accepted(p: Eigensystem, q: Eigensystem, step: RootStep) -> RootStep:
         return step
     certainty = step.certainty.copy()
     above = [k for k in step.meeting if p.s[k].imag > 0]
-    if len(above) < 2:  # real roots keep their order, and a pair alone is itself: next to a meeting on the real axis
+    at_axis = np.abs(p.s[above].imag) < AT_AXIS * np.abs(p.s[above])
+    # Next to a meeting on the real axis: real roots keep their order, a pair alone is itself, and of pairs that arrive
+    # together it is a convention, as with the real roots that they become, which is which.
+    if len(above) < 2 or at_axis.all():
         certainty[list(step.meeting)] = np.nan
         return replace(step, certainty=certainty, meeting=())
     certainty[list(step.meeting)] = 0.0

@@ -1,5 +1,6 @@
-"""The modes of a bogie: frequency, damping, shape, and what takes part in each."""
+"""The modes of a vehicle: frequency, damping, shape, and what takes part in each."""
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -12,10 +13,14 @@ from yawdesign.hunting.verdict import EXACT, Mode, least_stable
 from yawdesign.problem import Problem
 from yawdesign.problem.result import Result
 from yawdesign.response.modes.eigenvectors import unfold, whole_vector
-from yawdesign.response.modes.names import NamedRoot, hunting_root, named_roots, owners
+from yawdesign.response.modes.names import NamedRoot, named_roots
+from yawdesign.response.modes.participation import owners
+from yawdesign.vehicle.elements import parted
 from yawdesign.vehicle.polynomials import Polynomial
 from yawdesign.vehicle.state_space import StateSpace
 from yawdesign.vehicle.vehicle import Vehicle
+
+SMALLEST = 1e-12  # of the car body's displacement: wheelsets that move less count as moving so much
 
 
 @dataclass(frozen=True)
@@ -25,18 +30,26 @@ class NamedMode(Mode):
     Parameters
     ----------
     name : str
-        What moves in it, such as ``"motor lateral 1"``; no other mode of the bogie has it.
+        What moves in it, such as ``"motor lateral 1"``; no other mode of the vehicle has it.
     eigenvalue : complex
         The root above the real axis, or on it [1/s].
     shape : mapping coordinate -> complex
-        Displacements [m] and angles [rad], scaled so that the largest of all displacements and of all angles times the
-        half wheelbase is 1 and leads with phase zero. The motion is the real part of ``shape * exp(eigenvalue t)``.
+        Displacements [m] and angles [rad], scaled so that the largest of all displacements is 1 and leads with phase
+        zero. An angle counts as a displacement of its body: times the half wheelbase; for the car body times l_c (yaw)
+        and |h_s| (roll; b_2 where h_s is 0), for roll of the frame times b_1. The motion is the real part
+        of ``shape * exp(eigenvalue t)``.
     participation : mapping str -> float
         Share of each coordinate (with its velocity) and of each damper's stroke in the mode [-]: left times right
         eigenvector. The shares sum to 1 and do not depend on units.
     conicity : float
         How much the root depends on the conicity, |d ln eigenvalue / d ln lambda| [-]: 1/2 for a wheelset that rolls
         freely, 0 for what knows nothing of the wheels.
+    hunting : bool
+        Whether it is the hunting of the vehicle, of which the least decay rate counts where each bogie has its own.
+    car_body : float or None
+        How far the car body moves over one of the bogies, at the height of the secondary springs, relative to the
+        wheelset that moves farthest [-]; None if no car body moves. Where it is above
+        1 in an oscillation that grows, that is low-conicity sway.
     residual : float
         The larger of two backward errors [-]: of the characteristic polynomial at the eigenvalue, and of the
         eigenvector.
@@ -47,19 +60,22 @@ class NamedMode(Mode):
     shape: Mapping[str, complex]
     participation: Mapping[str, float]
     conicity: float
+    hunting: bool
+    car_body: float | None
     residual: float
 
 
 @dataclass(frozen=True, repr=False)
 class Modes(Result):
-    """All modes of a bogie at one speed.
+    """All modes of a vehicle at one speed.
 
     Parameters
     ----------
     modes : tuple of NamedMode
         The least damped first (by decay rate).
     hunting : str or None
-        Name of the one that is the hunting of the bogie; None if nothing that oscillates depends on the conicity.
+        Name of the one that is the hunting; of two bogies that of the least decay rate. None if nothing that
+        oscillates depends on the conicity.
     stable : bool
         Whether all of them decay, as `yawdesign.stability` says it.
     C_s, speed : float
@@ -67,7 +83,7 @@ class Modes(Result):
     equations : str
         ``"reciprocal"`` or ``"as-printed"``.
     parameters : mapping
-        The bogie in SI units.
+        The vehicle in SI units.
     checked : bool
         True if the stability was checked, and every eigenvalue is a root of the characteristic polynomial.
     """
@@ -83,7 +99,7 @@ class Modes(Result):
 
 
 def modes(problem: Problem) -> Modes:
-    """Return the modes of a problem's bogie with the yaw damping written in it.
+    """Return the modes of a problem's vehicle with the yaw damping written in it.
 
     Parameters
     ----------
@@ -113,7 +129,7 @@ def modes(problem: Problem) -> Modes:
         C_s=verdict.C_s,
         speed=verdict.speed,
         equations=problem.equations,
-        parameters={name: float(value) for name, value in problem.bogie.parameters().items()},
+        parameters={name: float(value) for name, value in problem.parameters().items()},
         checked=verdict.checked and exact,
     )
 
@@ -132,15 +148,8 @@ def modes_at(vehicle: Vehicle) -> tuple[NamedMode, ...]:
 
 
 def hunting_mode(modes: Sequence[NamedMode]) -> NamedMode | None:
-    """Return the hunting of a bogie among its modes; None if nothing that oscillates depends on the conicity.
-
-    Parameters
-    ----------
-    modes : sequence of NamedMode
-        All modes, as `modes_at` returns them.
-    """
-    place = hunting_root(np.array([mode.eigenvalue for mode in modes]), np.array([mode.conicity for mode in modes]))
-    return None if place is None else modes[place]
+    """Return the hunting of a vehicle among its modes; None if nothing that oscillates depends on the conicity."""
+    return next((mode for mode in modes if mode.hunting), None)
 
 
 def _mode(root: NamedRoot, vehicle: Vehicle, matrix: Float, polynomial: Polynomial) -> NamedMode:
@@ -148,26 +157,49 @@ def _mode(root: NamedRoot, vehicle: Vehicle, matrix: Float, polynomial: Polynomi
     vector = whole_vector(matrix, root.states, s, root.part.right[:, root.place])
     left = np.zeros(len(matrix), dtype=complex)
     left[root.states] = root.part.left[:, root.place]
+    shape = _shape(vehicle, vector)
     return NamedMode(
         frequency=s.imag / (2 * np.pi),
         damping_ratio=-s.real / abs(s) if s else 0.0,
         decay_rate=-s.real,
         name=root.name,
         eigenvalue=s,
-        shape=_shape(vehicle, vector),
+        shape=shape,
         participation=_participation(vehicle.folded_state_space, left, vector),
         conicity=root.conicity,
+        hunting=root.hunting,
+        car_body=_car_body(vehicle.p, shape),
         residual=max(float(backward_error(polynomial, np.array(s))), _eigenvector_error(matrix, s, vector)),
     )
 
 
 def _shape(vehicle: Vehicle, vector: Complex) -> dict[str, complex]:
-    coordinates, units = vehicle.folded_state_space.coordinates, vehicle.model.coordinates
+    coordinates, units, arms = vehicle.folded_state_space.coordinates, vehicle.model.coordinates, _arms(vehicle.p)
     shape = unfold(coordinates, vector[: len(coordinates)])
-    weight = {x: float(vehicle.p["a"]) if units[x] == "rad" else 1.0 for x in shape}
+    weight = {x: arms[parted(x)[0]] if units[x] == "rad" else 1.0 for x in shape}
     largest = max(shape, key=lambda x: weight[x] * abs(shape[x]))
     unit = weight[largest] * shape[largest] or 1.0
     return {x: value / unit for x, value in shape.items()}
+
+
+def _arms(p: Mapping[str, float]) -> Mapping[str, float]:
+    """Return by what an angle is multiplied to be a displacement of its body [m], by the name of the coordinate.
+
+    Yaw of the car body displaces it over the bogies, its roll where the secondary springs stand, roll of the frame the
+    axle boxes; yaw of all other bodies counts at the half wheelbase.
+    """
+    rolling = {"th_c": abs(p["h_s"]) or p["b_2"], "psi_c": p["l_c"]} if "l_c" in p else {}
+    return defaultdict(lambda: p["a"], {"th_b": p["b_1"], **rolling})
+
+
+def _car_body(p: Mapping[str, float], shape: Mapping[str, complex]) -> float | None:
+    """Return how far the car body moves over a bogie relative to the wheelsets."""
+    if "y_c" not in shape:
+        return None
+    middle, yaw = shape["y_c"] + p["h_s"] * shape["th_c"], p["l_c"] * shape["psi_c"]
+    wheelsets = max(abs(value) for x, value in shape.items() if parted(x)[0] == "y_w")
+    over = max(abs(middle + yaw), abs(middle - yaw))
+    return over / max(wheelsets, SMALLEST * over) if over else 0.0
 
 
 def _participation(space: StateSpace, left: Complex, right: Complex) -> dict[str, float]:

@@ -7,7 +7,7 @@ from math import log, pi
 import numpy as np
 
 from yawdesign.hunting.arrays import Complex, Float
-from yawdesign.response.modes.names import hunting_root, named_roots
+from yawdesign.response.modes.names import named_roots
 from yawdesign.response.run.frequency import states
 from yawdesign.response.run.stationary import stationary_rms
 from yawdesign.response.run.system import System
@@ -133,11 +133,10 @@ def _as_expected(system: System, track: AnyTrack, clock: Clock, rms: Mapping[str
 
 def hunting(vehicle: Vehicle) -> tuple[float | None, float | None]:
     """Return frequency [Hz] and damping ratio of the hunting of a vehicle, the same root as in `yawdesign.modes`."""
-    roots = named_roots(vehicle)
-    place = hunting_root(np.array([root.s for root in roots]), np.array([root.conicity for root in roots]))
-    if place is None:
+    root = next((root for root in named_roots(vehicle) if root.hunting), None)
+    if root is None:
         return None, None
-    s = roots[place].s
+    s = root.s
     return s.imag / (2 * pi), -s.real / abs(s)
 
 
