@@ -13,6 +13,7 @@ from yawdesign.vehicle.vehicle import Model
 
 CASES = json.loads((Path(__file__).parent / "data" / "cases.json").read_text(encoding="utf-8"))["cases"]
 TABLE_1 = CASES[0]["bogie"]
+VEHICLES = json.loads((Path(__file__).parent / "data" / "vehicle.json").read_text(encoding="utf-8"))["cases"]
 MODELS = [("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal")]
 
 
@@ -191,6 +192,20 @@ def vehicle_named(vehicle_of_case):
         return vehicle_of_case(next(c for c in CASES if c["name"] == name), exact=True)
 
     return find
+
+
+@pytest.fixture(scope="session")
+def reference_vehicle():
+    """Return the vehicle with a car body of a reference, or the first of a kind, with other numbers; inf is rigid."""
+
+    def vehicle(reference, **changes):
+        if isinstance(reference, str):
+            reference = next(c for c in VEHICLES if c["kind"] == reference)
+        p = {**reference["bogie"], **reference["car_body"], "v": reference["speed_kmh"] / 3.6, **changes}
+        p = {name: x for name, x in p.items() if x != np.inf}
+        return Model(reference["kind"], "reciprocal", (*p, "C_s")).at(p)
+
+    return vehicle
 
 
 @pytest.fixture(scope="session")
