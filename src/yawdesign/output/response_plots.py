@@ -1,7 +1,7 @@
 """Pictures of the vehicle in motion: frequency responses, time histories, spectra, and the yaw damper's stiffness."""
 
 from collections.abc import Sequence
-from math import degrees, isinf
+from math import ceil, degrees, isinf
 from typing import TYPE_CHECKING
 
 from yawdesign.output.pictures import literal, new_axes
@@ -31,7 +31,7 @@ SHOWN = {
     "N": (1e-3, "kN"),
 }
 BODIES = {"b": "frame", "w": "wheelset", "m": "motor", "c": "car body"}
-STYLES = ("-", "--", ":", "-.")
+PER_ROW = 4  # lines in one row of a legend
 BY_BODY = {"c": COLOURS[0], "b": COLOURS[1], "b1": COLOURS[1], "b2": COLOURS[2]}
 
 
@@ -84,23 +84,28 @@ def simulation(
     if not chosen:
         raise ProblemError(f"speeds: there are runs at {', '.join(f'{h.speed:g}' for h in result.histories)} m/s")
     names = _responses(chosen[0], response)
+    shared, apart = _shared_words(names)
     factor, unit = SHOWN[chosen[0].unit(names[0])]
     lines = [(history, name) for history in chosen for name in names]
     for k, (history, name) in enumerate(lines):
         shown = history.time <= (until or history.time[-1])
-        speed = format_quantity(history.speed, "km/h", 4)
-        label = ", ".join(filter(None, ((name if len(names) > 1 else ""), (speed if len(chosen) > 1 else "")))) or speed
-        style = {"color": COLOURS[k % len(COLOURS)], "ls": STYLES[names.index(name) % len(STYLES)]}
-        ax.plot(history.time[shown], factor * history[name][shown], lw=0.9, label=label, **style)
+        parts = [apart[name]] if len(names) > 1 else []
+        parts += [format_quantity(history.speed, "km/h", 4)] if len(chosen) > 1 or not parts else []
+        colour = COLOURS[k % len(COLOURS)]
+        ax.plot(history.time[shown], factor * history[name][shown], lw=0.9, color=colour, label=", ".join(parts))
     ax.axhline(0, color="0.7", lw=0.6, zorder=0)
     ax.margins(x=0)
-    ax.set(xlabel="time [s]", ylabel=f"{_first_capital(_together(names))} [{unit}]")
-    speeds_shown = f", {format_quantity(chosen[0].speed, 'km/h', 4)}" if len(chosen) == 1 and len(names) > 1 else ""
-    title = f"Track {literal(result.track)}, C_s = {format_quantity(result.C_s, 'kN·s/m')}{speeds_shown}"
-    above = 0.0 if len(lines) <= 3 else 1.0  # a long legend stands above the title, in a row of its own
-    ax.set_title(title, fontsize="medium", loc="left")
-    place = {"loc": "lower right", "bbox_to_anchor": (1, 1 + 0.07 * above), "borderaxespad": 0.2}
-    ax.legend(frameon=False, ncols=min(len(lines), 4), fontsize="small" if len(names) > 1 else None, **place)
+    ax.set(xlabel="time [s]", ylabel=f"{_first_capital(shared)} [{unit}]")
+    title = f"Track {literal(result.track)}, C_s = {format_quantity(result.C_s, 'kN·s/m')}"
+    if len(names) == 1:
+        ax.set_title(title, fontsize="medium", loc="left")
+        ax.legend(frameon=False, ncols=min(len(chosen), 4), loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2)
+        return ax
+    title += f", {format_quantity(chosen[0].speed, 'km/h', 4)}" if len(chosen) == 1 else ""
+    ax.legend(
+        frameon=False, ncols=PER_ROW, fontsize="small", loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.2
+    )
+    ax.set_title(title, fontsize="medium", loc="left", pad=10 + 14 * ceil(len(lines) / PER_ROW))  # above the legend
     return ax
 
 
@@ -117,11 +122,21 @@ def _responses(history: "History", response: str | Sequence[str] | None) -> tupl
     return names
 
 
-def _together(names: Sequence[str]) -> str:
-    """Return what several responses are called together: what their names have in common."""
+def _shared_words(names: Sequence[str]) -> tuple[str, dict[str, str]]:
+    """Return what several responses are called together, and what each is called apart from that.
+
+    Examples
+    --------
+    >>> _shared_words(["y_b1", "y_b2"])
+    ('lateral displacement of the frame of the bogie', {'y_b1': 'leading', 'y_b2': 'trailing'})
+    """
     words = [meaning(name).split(" ") for name in names]
-    shared = [word for word, *same in zip(*words, strict=False) if all(other == word for other in same)]
-    return meaning(names[0]) if len(names) == 1 else " ".join(shared).removesuffix(" the") or "responses"
+    alike = [all(other == word for other in same) for word, *same in zip(*words, strict=False)]
+    shared = " ".join(word for word, same in zip(words[0], alike, strict=False) if same)
+    if len({len(each) for each in words}) > 1:
+        return shared.removesuffix(" the").removesuffix(" of") or "responses", {name: name for name in names}
+    apart = [" ".join(word for word, same in zip(each, alike, strict=True) if not same) for each in words]
+    return shared or "responses", dict(zip(names, apart, strict=True))
 
 
 def _first_capital(text: str) -> str:
@@ -144,12 +159,12 @@ def frequency_response(result: "FrequencyResponse", ax: "Axes | None" = None) ->
     for axes, colour, names, unit in ((ax, LATERAL, ("y",), "m"), (right, YAW, ("phi", "psi"), "rad")):
         drawn = [x for x in result.amplitudes if x.split("_")[0] in names and x.split("_")[1] in BY_BODY]
         for name in drawn:
-            one = {"color": colour} if len(drawn) == 1 else {"color": BY_BODY[name.split("_")[1]], "label": name}
-            axes.plot(result.frequency, abs(result.amplitudes[name]), lw=1.4, ls="-" if axes is ax else "--", **one)
-        axes.set_ylabel(f"{_first_capital(_together(drawn))} [{unit} per {of}]")
+            own, label = (colour, None) if len(drawn) == 1 else (BY_BODY[name.split("_")[1]], name)
+            style = "--" if label and axes is right else "-"
+            axes.plot(result.frequency, abs(result.amplitudes[name]), lw=1.4, ls=style, color=own, label=label)
+        axes.set_ylabel(f"{_first_capital(_shared_words(drawn)[0])} [{unit} per {of}]")
         axes.set_ylim(bottom=0)
         if len(drawn) == 1:
-            axes.lines[0].set_linestyle("-")
             axes.yaxis.label.set_color(colour)
             axes.tick_params(axis="y", colors=colour)
         else:

@@ -159,10 +159,10 @@ class StateSpace:
         for k, (link, law) in enumerate(self.strokes, 2 * len(self.coordinates)):
             force = {j: times(law.K, g) for j, g in self._moved(link.displacement).items()} | {k: -law.K}
             rows |= self._damper(link, force, stroke=k)
-        for link, law in self._dampers():
-            if isinstance(law, Dashpot) and not _is_absent(law):
+        for link, damper in self._dampers():
+            if isinstance(damper, Dashpot) and not _is_absent(damper):
                 rate = self._moved(link.displacement, rate=1)
-                rows |= self._damper(link, {j: times(law.c, g) for j, g in rate.items()})
+                rows |= self._damper(link, {j: times(damper.c, g) for j, g in rate.items()})
         return rows
 
     def _dampers(self) -> Iterator[tuple[Link, Dashpot | Maxwell]]:
@@ -265,8 +265,9 @@ def _is_absent(law: Dashpot | Maxwell) -> bool:
 
 def _without_rigid_joint(law: Law) -> Law:
     """Return a damper with a joint that is known to be rigid as what it is: a dashpot."""
-    rigid = isinstance(law, Maxwell) and isinstance(law.K, float) and math.isinf(law.K)
-    return Dashpot(law.c) if rigid else law
+    if isinstance(law, Maxwell) and isinstance(law.K, float) and math.isinf(law.K):
+        return Dashpot(law.c)
+    return law
 
 
 def _acts_on(owner: Mass | Link) -> Sequence[str]:

@@ -128,9 +128,9 @@ def _coordinates(model: Model) -> dict[str, str]:
 @lru_cache
 def families() -> tuple[tuple[str, ...], ...]:
     """Return the coordinates that a bogie of the catalogue may have, and those of a car body on two of them."""
-    bodies = CAR_BODY, {}
+    bodies: tuple[tuple[str, ...], ...] = (), tuple(CAR_BODY)
     models = [[Model(kind, parameters=(*bogie_keys(kind), *body, "v")) for kind in CATALOGUE] for body in bodies]
-    return tuple(tuple(dict.fromkeys(x for model in family for x in model.coordinates)) for family in models[::-1])
+    return tuple(tuple(dict.fromkeys(x for model in family for x in model.coordinates)) for family in models)
 
 
 def known_coordinates() -> tuple[str, ...]:

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import atan2, inf, pi
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +12,7 @@ from yawdesign.problem.result import Result
 from yawdesign.response.run.frequency import outputs
 from yawdesign.response.run.run import Run
 from yawdesign.response.run.system import System
-from yawdesign.vehicle.elements import Dashpot, Law, Link, Maxwell
+from yawdesign.vehicle.elements import Law, Link, Maxwell
 from yawdesign.vehicle.polynomials import evaluate
 from yawdesign.vehicle.signals import of_damper
 from yawdesign.vehicle.vehicle import Vehicle
@@ -111,15 +112,13 @@ class DamperComponent(Result):
 def components(system: System, run: Run) -> tuple[DamperComponent, ...]:
     """Return the yaw dampers of a vehicle in a run, one for each bogie; those without damping are left out."""
     links = [e for e in system.space.elements if isinstance(e, Link) and e.varied]
-    dampers = [(link, law) for link in links for law in link.laws if isinstance(law, (Dashpot, Maxwell))]
+    dampers: list[tuple[Link, Any]] = [(link, law) for link in links for law in link.laws]
     rates = {"decay_rate": _coupled_decay_rate(system.vehicle), "decay_rate_rigid": _coupled_decay_rate(_rigid(system))}
     return tuple(_component(system, run, link, law, rates) for link, law in dampers if law.c)
 
 
-def _component(
-    system: System, run: Run, link: Link, law: Dashpot | Maxwell, rates: Mapping[str, float]
-) -> DamperComponent:
-    C_s, K_ds = float(law.c), float(law.K) if isinstance(law, Maxwell) else inf
+def _component(system: System, run: Run, link: Link, law: Any, rates: Mapping[str, float]) -> DamperComponent:
+    C_s, K_ds = float(law.c), float(getattr(law, "K", inf))
     each = C_s / link.pieces
     force, displacement = of_damper(link.name, "force"), of_damper(link.name, "displacement")
     stroke = of_damper(link.name, "stroke") if isinstance(law, Maxwell) else displacement

@@ -7,6 +7,7 @@ Q_4 = 0.63.
 """
 
 from math import pi, sqrt
+from typing import Any
 
 import numpy as np
 
@@ -58,5 +59,7 @@ def _filtered(a: Float, step: float) -> Float:
     """Return accelerations after the filter W_d, each section of it exact for straight lines between the instants."""
     from scipy.signal import cont2discrete, sosfilt
 
-    sections = [cont2discrete((above[::-1], below[::-1]), step, method="foh")[:2] for above, below in SECTIONS]
-    return np.asarray(sosfilt(np.array([np.hstack([np.ravel(b), a]) for b, a in sections]), a, axis=0))
+    falling: list[Any] = [tuple(np.array(part[::-1], dtype=float) for part in section) for section in SECTIONS]
+    discrete: list[Any] = [cont2discrete(section, step, method="foh") for section in falling]
+    sections = np.array([np.hstack([np.ravel(above), below]) for above, below, _ in discrete])
+    return np.asarray(sosfilt(sections, a, axis=0))

@@ -208,7 +208,7 @@ def _simulation(problem: Problem, plan: Plan, speeds: Sequence[float], progress:
         damper=max(dampers, key=lambda damper: damper.force_rms, default=None),
         dampers=dampers,
         runs=tuple(runs),
-        checked=all(one.checked for one in (*runs, *dampers)),
+        checked=all(one.checked for one in runs) and all(damper.checked for damper in dampers),
         histories=tuple(histories),
     )
 

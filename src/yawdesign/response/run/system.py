@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import cached_property
+from typing import Any
 
 from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.hunting.eigenvalues import count_undamped, dense, eigenvalues, state_matrix
@@ -92,7 +93,7 @@ class System:
     @property
     def wheelsets(self) -> Wheelsets:
         """When its wheelsets, in the order of the inputs, pass a place of the track: as they stand behind the first."""
-        contacts = [e for e in self.space.elements if isinstance(e, WheelRailContact)]
+        contacts: list[Any] = [e for e in self.space.elements if isinstance(e, WheelRailContact)]
         first = contacts[0]
         lags = tuple(float(first.ahead - contact.ahead) / self.v for contact in contacts)
         return Wheelsets(self.v, lags, 2 * float(first.b))
