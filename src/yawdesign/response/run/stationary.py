@@ -22,7 +22,7 @@ NEAR = 24  # cells on either side of a mode
 
 @dataclass(frozen=True, repr=False)
 class StationaryResponse(Result):
-    """Root mean square of every response on an endless random track.
+    """Root mean square of every response on a random track without an end.
 
     Parameters
     ----------
