@@ -7,7 +7,7 @@ series with its joints is displaced by ``yaw_damper_displacement``, its piston b
 
 from typing import Any
 
-DIRECTIONS = {"y": "lateral", "phi": "yaw"}  # by what the name of a coordinate begins with
+DIRECTIONS = {"y": "lateral", "phi": "yaw", "psi": "yaw", "th": "roll"}  # by what the name of a coordinate begins with
 ENDS = {"1": "front", "2": "rear"}  # by what the name of what belongs to one end of a pair ends with
 OLD_OUTPUTS = {"F_s": "yaw_damper_pair_force", "u_s": "yaw_damper_displacement"}
 

@@ -118,7 +118,8 @@ def _sources(model: Model) -> dict[str, frozenset[str]]:
 def _joints(model: Model) -> dict[str, str]:
     laws: list[Any] = [law for link in _traced(model).physical if isinstance(link, Link) for law in link.maxwell]
     # A primary damper brings its arm, which is in both of its numbers.
-    return {damping: stiffness for law in laws for damping in law.c - law.K for stiffness in law.K - law.c}
+    numbers = [(frozenset(law.c), frozenset(law.K)) for law in laws]
+    return {damping: stiffness for c, K in numbers for damping in c - K for stiffness in K - c}
 
 
 @lru_cache
