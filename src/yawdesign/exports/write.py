@@ -10,13 +10,14 @@ from yawdesign.exports.described_vehicle import in_words, short_name
 from yawdesign.exports.file_contents import PREFIX, ExportNames, FileContents, Unavailable
 from yawdesign.exports.fmu.archive import write_fmu
 from yawdesign.exports.folder import check_place, exported_folder, write_text
-from yawdesign.exports.functions import c_source, functions, listed, self_test, versions
+from yawdesign.exports.functions import c_source, functions, listed, self_test
 from yawdesign.exports.manifest import write_manifest
 from yawdesign.exports.matlab import write_mat
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result
 from yawdesign.vehicle.vehicle import Model
+
 
 @dataclass(frozen=True, repr=False)
 class Export(Result):
@@ -54,14 +55,14 @@ def write_c(contents: FileContents, folder: Path) -> list[str]:
     problem = contents.problem
     kind = ", ".join((problem.bogie.kind, problem.equations, *in_words(problem)))
     title = problem.title or short_name(Model.of(problem)).capitalize()
-    about = f"{title} ({kind}): functions written by yawdesign {versions()['yawdesign']} with CasADi {versions()['casadi']}"
+    about = f"{title} ({kind}): functions written by yawdesign {{yawdesign}} with CasADi {{casadi}}"
     chosen = "critical_damping" if "critical_damping" in contents.functions else next(iter(contents.functions))
     texts = {
         names.source: source,
         names.header: c_files.header(contents.functions, about, names),
         "selftest.c": c_files.self_test_source({name: test for name, test in contents.tests.items() if test}, names),
         "example.c": c_files.example_source(chosen, contents.functions[chosen], names),
-        "Makefile": c_files.makefile(names),
+        "Makefile": c_files.makefile(names, source),
     }
     return [write_text(folder / name, text) for name, text in texts.items()]
 
