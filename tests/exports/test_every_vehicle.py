@@ -1,6 +1,7 @@
 """Every exported function and file of every kind of vehicle against a state matrix that was written by hand."""
 
 import json
+import re
 import runpy
 import subprocess
 from dataclasses import replace
@@ -256,6 +257,11 @@ def test_the_paper_s_bogie_says_nothing_more(tmp_path):
     assert "car_body" not in json.loads((tmp_path / "out" / "manifest.json").read_text(encoding="utf-8"))
 
 
+def small_powers(unit):
+    """Return a unit with no power above 9, as a problem file has them: (N/m)^11 is (N/m)^9·(N/m)^2."""
+    return re.sub(r"(\([^)]+\))\^(1\d)", lambda m: f"{m[1]}^9·{m[1]}^{int(m[2]) - 9}", unit)
+
+
 @pytest.mark.parametrize("quantity", units["UNITS"])
 def test_every_output_has_the_unit_that_it_says(name, quantity):
     if not outputs_exist(KINDS[name]):
@@ -270,7 +276,7 @@ def test_every_output_has_the_unit_that_it_says(name, quantity):
         before, after = units["outputs"](f), units["outputs"](f, change)
         for port, one, other in zip(f.outputs, before, after, strict=True):
             if "log10" not in port.name:
-                expected = one * units["recounted"](units["entries"](port), change)
+                expected = one * units["recounted"](map(small_powers, units["entries"](port)), change)
                 assert other == pytest.approx(expected, rel=1e-6, abs=1e-9 if "equations" in key else 1e-12), key
 
 
