@@ -1,6 +1,6 @@
 """The vehicle a second time, written from its equations and with nothing of the package: for comparison in tests.
 
-x points forward, y to the left, z up; yaw turns x to y, roll turns y to z. A point at (x, y, h above the centre of mass)
+x points forward, y to the left, z up; yaw turns x to y, roll turns y to z. A point at x, h above the centre of mass,
 of a body moves sideways by ``y + x yaw - h roll``. Every spring and every damper acts between two such points, in
 the coordinates of each body. The state of a damper in series with a spring is its force F: ``F' = K u' - K/c F``.
 Numbers may be of any type.

@@ -1,4 +1,4 @@
-"""The package's vehicle is the one of the equations written a second time (independent.py): eigenvalues and polynomials."""
+"""The vehicle is that of the equations written a second time (independent.py), by eigenvalues and polynomials."""
 
 import itertools
 
@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from scipy.optimize import linear_sum_assignment
 
 from yawdesign.hunting.eigenvalues import dense, state_matrix
 from yawdesign.problem.cases import SHARE
@@ -40,8 +41,6 @@ def model_of(kind, p, flags):
 
 def difference(found, expected):
     """Return the largest distance of two spectra, one root to one, relative to each root's size."""
-    from scipy.optimize import linear_sum_assignment
-
     found, expected = np.asarray(found), np.asarray(expected)
     assert len(found) == len(expected)
     apart = np.abs(found[:, None] - expected) / np.maximum(1, np.abs(expected))
