@@ -1,6 +1,6 @@
 """The bogie of N. K. Cooperrider (1972): seven degrees of freedom, one of them the frame's roll.
 
-It is put together from our elements as they are, and written as a problem, whose frame rolls on rigidly mounted dampers.
+It is put together from our elements as they are, and written as a problem with a frame that rolls and rigid joints.
 """
 
 import numpy as np
