@@ -118,7 +118,8 @@ def _sources(model: Model) -> dict[str, frozenset[str]]:
 def _joints(model: Model) -> dict[str, str]:
     laws: list[Any] = [law for link in _traced(model).physical if isinstance(link, Link) for law in link.maxwell]
     # A primary damper brings its arm, which is in both of its numbers.
-    return {damping: stiffness for law in laws for damping in law.c - law.K for stiffness in law.K - law.c}
+    own = [(law.c.difference(law.K), law.K.difference(law.c)) for law in laws]
+    return {damping: stiffness for dampings, joints in own for damping in dampings for stiffness in joints}
 
 
 @lru_cache
