@@ -1,4 +1,4 @@
-"""A damper that is new: lateral dampers over the wheelsets take two rows of the parameter table and a link in the catalogue of vehicles.
+"""A damper that is new, over each wheelset, takes two rows of the parameter table and a link in the catalogue.
 
 A copy of the package gets these two edits and nothing else; what is then asked of it stands in end_damper.py.
 """

@@ -1,8 +1,8 @@
 """Bogie and vehicle built a second time, from bodies, springs and dampers at their places, in the code Exudyn.
 
-Nothing of the model's equations is used: bodies are rigid in the plane, the car body in space, connectors act between points of bodies, the
-pistons of the dampers are points without mass, and the wheel-rail contact is a force at each of the four wheels. So a
-sign, an arm or a reaction that is wrong in the model shows here.
+Nothing of the model's equations is used: bodies are rigid in the plane, the car body in space, connectors act between
+points of bodies, the pistons of the dampers are points without mass, and the wheel-rail contact is a force at each of
+the four wheels. So a sign, an arm or a reaction that is wrong in the model shows here.
 """
 
 from types import SimpleNamespace
