@@ -1,5 +1,7 @@
 """Vehicles with a car body: reference numbers, limits that are known by other means, and faults of one bogie."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -149,3 +151,21 @@ def test_a_damper_lost_at_both_is_a_fault_of_both(moving):
     half = vehicle.replace(C_s=vehicle.C_s / 2, K_ds=vehicle.p["K_ds"] / 2)
     assert np.allclose(eigenvalues(one), eigenvalues(half), rtol=1e-8, atol=1e-8)
     assert np.allclose(eigenvalues(other), eigenvalues(vehicle))
+
+
+def test_coefficients_of_50_vehicles(random_vehicles, rational_vehicle, car_body):
+    """Those in double precision beside those in exact rationals, for every motion and power of C_s."""
+    rng, worst = np.random.default_rng(7), 0.0
+    for drawn in random_vehicles(50, spread=3.0, seed=7):
+        kind = drawn.model.kind
+        body = {name: x * 2.0 ** rng.uniform(-1, 1) for name, x in car_body.items()}
+        own = {name: x for name, x in drawn.p.items() if kind == "power" or name not in MOTOR}
+        vehicle = vehicle_of({**own, **body, "C_s": 1e6}, kind)
+        exact = rational_vehicle(vehicle)
+        assert len(vehicle.coupled.coefficients) == 3
+        for one, other in zip(vehicle.motions, exact.motions, strict=True):
+            for p, q in zip(one.coefficients, other.coefficients, strict=True):
+                assert len(p) == len(q)
+                known = [(Fraction(a), Fraction(int(b.p), int(b.q))) for a, b in zip(p, q, strict=True) if b != 0]
+                worst = max(worst, *(float(abs(a / b - 1)) for a, b in known))
+    assert 0 < worst < 1e-12, worst
