@@ -5,7 +5,7 @@ zero, which lower the degree of the polynomials.
 """
 
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import lru_cache, reduce
 from itertools import pairwise
 from typing import Any
@@ -14,9 +14,8 @@ import casadi as ca
 
 from yawdesign.hunting.many.tape import Tape
 from yawdesign.hunting.routh import TIME_UNIT, quotient, routh_rows, sector_rows
-from yawdesign.vehicle.motions import Motion
+from yawdesign.vehicle.motions import COUPLED
 from yawdesign.vehicle.polynomials import (
-    Number,
     Polynomial,
     add,
     even_odd,
@@ -59,15 +58,15 @@ def verdicts(model: Model, zeros: Zeros = NO_ZEROS) -> Tape:
         on the way to that answer is doubtful.
     """
     vehicle = _vehicle(model, zeros)
-    return _tape(vehicle.p, _verdict(routh_rows(_scaled(motion, vehicle.C_s)) for motion in vehicle.motions))
+    return _tape(vehicle.p, _verdict(routh_rows(p) for p in _polynomials(vehicle)))
 
 
 @lru_cache
 def others_stable(model: Model, zeros: Zeros = NO_ZEROS) -> Tape | None:
     """Return the tape of verdicts on the motions that no yaw damper reaches; None where it reaches all."""
     vehicle = _vehicle(model, zeros)
-    others = [motion for motion in vehicle.motions if not motion.varied]
-    return _tape(vehicle.p, _verdict(routh_rows(_scaled(motion, 0)) for motion in others)) if others else None
+    others = [motion.name for motion in model.motions if not motion.varied]
+    return _tape(vehicle.p, _verdict(routh_rows(p) for p in _polynomials(vehicle, others))) if others else None
 
 
 @lru_cache
@@ -77,9 +76,21 @@ def exceeding(model: Model, objective: str, names: Names, zeros: Zeros = NO_ZERO
     Inputs: parameters, C_s, v, and those of `beyond`. Outputs as those of `verdicts`.
     """
     vehicle, place = _vehicle(model, zeros), _place(objective)
-    chosen = [motion for motion in vehicle.motions if motion.name in names]
-    rows = [_beyond(objective, _scaled(motion, vehicle.C_s), place) for motion in chosen]
-    return _tape({**vehicle.p, **place}, _verdict(rows))
+    return _tape({**vehicle.p, **place}, _verdict(_beyond(objective, p, place) for p in _polynomials(vehicle, names)))
+
+
+@lru_cache
+def roots_beyond(model: Model, objective: str, names: Names, zeros: Zeros = NO_ZEROS) -> Tape:
+    """Return the tape that counts the roots of some motions beyond a line.
+
+    Inputs: parameters, C_s, v, and those of `beyond`. Outputs: the count over all of these motions, the number of
+    doubtful steps in it, and the same two for the right half-plane where the line is another one (``damping_ratio``).
+    """
+    vehicle, place = _vehicle(model, zeros), _place(objective)
+    chosen = _polynomials(vehicle, names)
+    found = _counts(_beyond(objective, p, place) for p in chosen)
+    unstable = _counts(map(routh_rows, chosen)) if objective == "damping_ratio" else []
+    return _tape({**vehicle.p, **place}, [*found, *unstable])
 
 
 @lru_cache
@@ -105,8 +116,8 @@ def beyond(objective: str, size: int, backwards: bool = False) -> Tape:
 def coefficients(model: Model, name: str, zeros: Zeros = NO_ZEROS) -> Tape:
     """Return the tape of the polynomial of a motion in s / (100 rad/s), lowest power first."""
     vehicle = _vehicle(model, zeros)
-    (motion,) = (motion for motion in vehicle.motions if motion.name == name)
-    return _tape(vehicle.p, _scaled(motion, vehicle.C_s))
+    (p,) = _polynomials(vehicle, [name])
+    return _tape(vehicle.p, p)
 
 
 @lru_cache
@@ -130,7 +141,8 @@ def unstable_roots(model: Model, zeros: Zeros = NO_ZEROS) -> Tape:
     Routh's column: a quotient of Hurwitz minors that changes its sign where a pair of roots crosses the imaginary axis.
     """
     vehicle = _vehicle(model, zeros)
-    rows = routh_rows(_scaled(vehicle.coupled, vehicle.C_s))
+    (p,) = _polynomials(vehicle, [COUPLED])
+    rows = routh_rows(p)
     return _tape(vehicle.p, [*_count(rows), rows[-2][0]])
 
 
@@ -154,9 +166,10 @@ def _vehicle(model: Model, zeros: Zeros) -> Vehicle:
     return model.at(_symbols(model.parameters) | dict.fromkeys(zeros, ca.SX(0)))
 
 
-def _scaled(motion: Motion, C_s: Number) -> Polynomial:
-    """Return the polynomial of a motion in s / (100 rad/s)."""
-    return scale_variable(_without_zeros(motion.polynomial(C_s)), TIME_UNIT)
+def _polynomials(vehicle: Vehicle, names: Collection[str] | None = None) -> list[Polynomial]:
+    """Return the polynomials of motions, of all if none are named, in s / (100 rad/s)."""
+    chosen = (p for name, p in vehicle.polynomials.items() if names is None or name in names)
+    return [scale_variable(_without_zeros(p), TIME_UNIT) for p in chosen]
 
 
 def _without_zeros(p: Polynomial) -> Polynomial:
@@ -203,6 +216,11 @@ def _count(rows: Rows) -> list[Any]:
     sizes = [_left_over_from(rows, k) for k in range(len(rows))]
     sure = [LEFT_OVER * (0 if x is None else x) < ca.fabs(row[0]) for x, row in zip(sizes, rows, strict=True)]
     return [reduce(plus, changes), len(rows) - reduce(plus, sure)]
+
+
+def _counts(arrays: Iterable[Rows]) -> list[Any]:
+    """Return the sums of `_count` over some arrays."""
+    return [reduce(plus, column) for column in zip(*map(_count, arrays), strict=True)]
 
 
 def _left_over_from(rows: Rows, k: int) -> Any:
