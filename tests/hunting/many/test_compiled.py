@@ -268,7 +268,7 @@ def test_a_library_with_the_right_digest_that_does_not_load_is_removed(library, 
 
 
 def test_what_another_process_has_kept_meanwhile_is_used(library, monkeypatch):
-    monkeypatch.setattr(library_cache, "find", lambda key: None)
+    monkeypatch.setattr(library_cache, "find", lambda key, suffix: None)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert is_compiled()

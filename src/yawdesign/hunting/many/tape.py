@@ -15,10 +15,12 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.many import compiled
+from yawdesign.hunting.many.c_statements import Statements
 from yawdesign.hunting.many.compiled import Run
 
 BLOCK = 8192  # points; long enough that NumPy's calls cost little, and a row still fits the innermost caches
-MANY = 100_000  # points after which a compilation, about half a second, has paid
+MANY = 100_000  # points after which a compilation, about half a second for a single bogie, has paid
+LOOK = 0.2  # of these points: after so many one that was kept is looked for
 
 BINARY = {
     ca.OP_ADD: (np.add, "{0} + {1}"),
@@ -71,7 +73,7 @@ class Tape:
         self.constants: dict[int, float] = {}
         self.steps: list[Operation] = []
         self.results = [-1] * self.size
-        self._lock, self._asked, self._tried = Lock(), 0, False
+        self._lock, self._asked, self._tried = Lock(), 0, 0
         self._fast: Run | None = None
         self._own = local()
         self._record(function)
@@ -127,12 +129,15 @@ class Tape:
         return out
 
     def _runner(self, points: int) -> Run:
-        """Return how to run: compiled, once so many points were asked for that compiling has paid."""
+        """Return how to run: compiled, once so many points were asked for that this has paid."""
         with self._lock:
             self._asked += points
-            if self._asked >= MANY and not self._tried:
-                self._tried = True
-                run = compiled.load(self.source())
+            # The time of a compilation has a part that does not grow with the tape, the time of a point has none.
+            many = MANY * (0.4 + 1000 / max(1, len(self.steps)))
+            wanted = int(self._asked >= LOOK * many) + int(self._asked >= many)
+            if wanted > self._tried and not self._fast:
+                self._tried = wanted
+                run = compiled.load(self.source(), compiling=wanted == 2)
                 self._fast = run if run and self._agrees(run) else None
                 if run and not self._fast:
                     compiled.note("it does not give the numbers of NumPy")
@@ -147,15 +152,9 @@ class Tape:
         self._interpret(arguments, two, 0, 21)
         return np.array_equal(one, two, equal_nan=True)
 
-    def source(self) -> str:
+    def source(self) -> Statements:
         """Return the operations in C, on vectors of points."""
-        lines = [f"  const vector r{k} = load(in[{k}], stride[{k}], point, end);" for k in range(len(self.inputs))]
-        lines += [f"  const vector r{k} = ZERO + {_literal(x)};" for k, x in self.constants.items()]
-        for step in self.steps:
-            text = step.kinds[1].format(*(f"r{i}" for i in step.sources))
-            lines.append(f"  const vector r{step.target} = {text};")
-        lines += [f"  store(out + {k} * points, r{register}, point, end);" for k, register in enumerate(self.results)]
-        return "\n".join(lines)
+        return Statements(len(self.inputs), self.constants, self.steps, self.results)
 
     def _interpret(self, arguments: Sequence[Float], out: Float, start: int, end: int) -> None:
         """Run the operations with NumPy."""
@@ -233,7 +232,3 @@ def _is_logical(code: int, operands: Sequence[Any]) -> bool:
 def _as_numbers(function: Callable[..., Any], operands: Sequence[Any]) -> Callable[..., Any]:
     """Return the function such that it takes comparisons for numbers: NumPy's sum of two of them is one of them."""
     return partial(function, dtype=float) if any(x.dtype == bool for x in operands) else function
-
-
-def _literal(value: float) -> str:
-    return float(value).hex()
