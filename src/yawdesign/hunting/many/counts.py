@@ -12,6 +12,8 @@ from typing import Any
 
 import casadi as ca
 
+from yawdesign.hunting.many.kept_tapes import kept
+from yawdesign.hunting.many.recording import record
 from yawdesign.hunting.many.tape import Tape
 from yawdesign.hunting.routh import TIME_UNIT, quotient, routh_rows, sector_rows
 from yawdesign.vehicle.motions import COUPLED
@@ -41,6 +43,7 @@ NO_ZEROS: Zeros = frozenset()
 
 
 @lru_cache
+@kept
 def verdicts(model: Model, zeros: Zeros = NO_ZEROS) -> Tape:
     """Return the tape of verdicts.
 
@@ -62,6 +65,7 @@ def verdicts(model: Model, zeros: Zeros = NO_ZEROS) -> Tape:
 
 
 @lru_cache
+@kept
 def others_stable(model: Model, zeros: Zeros = NO_ZEROS) -> Tape | None:
     """Return the tape of verdicts on the motions that no yaw damper reaches; None where it reaches all."""
     vehicle = _vehicle(model, zeros)
@@ -70,6 +74,7 @@ def others_stable(model: Model, zeros: Zeros = NO_ZEROS) -> Tape | None:
 
 
 @lru_cache
+@kept
 def exceeding(model: Model, objective: str, names: Names, zeros: Zeros = NO_ZEROS) -> Tape:
     """Return the tape of verdicts whether the margins of some motions exceed a level.
 
@@ -80,6 +85,7 @@ def exceeding(model: Model, objective: str, names: Names, zeros: Zeros = NO_ZERO
 
 
 @lru_cache
+@kept
 def roots_beyond(model: Model, objective: str, names: Names, zeros: Zeros = NO_ZEROS) -> Tape:
     """Return the tape that counts the roots of some motions beyond a line.
 
@@ -94,6 +100,7 @@ def roots_beyond(model: Model, objective: str, names: Names, zeros: Zeros = NO_Z
 
 
 @lru_cache
+@kept
 def beyond(objective: str, size: int, backwards: bool = False) -> Tape:
     """Return the tape that counts the roots beyond a line, of a polynomial with so many coefficients a0, a1, ...
 
@@ -113,6 +120,7 @@ def beyond(objective: str, size: int, backwards: bool = False) -> Tape:
 
 
 @lru_cache
+@kept
 def coefficients(model: Model, name: str, zeros: Zeros = NO_ZEROS) -> Tape:
     """Return the tape of the polynomial of a motion in s / (100 rad/s), lowest power first."""
     vehicle = _vehicle(model, zeros)
@@ -134,6 +142,7 @@ def boundaries(model: Model, zeros: Zeros = NO_ZEROS) -> tuple[Tape, tuple[int, 
 
 
 @lru_cache
+@kept
 def unstable_roots(model: Model, zeros: Zeros = NO_ZEROS) -> Tape:
     """Return the tape that counts the unstable roots of the coupled motion.
 
@@ -147,6 +156,7 @@ def unstable_roots(model: Model, zeros: Zeros = NO_ZEROS) -> Tape:
 
 
 @lru_cache
+@kept
 def counts(size: int) -> Tape:
     """Return the tape that counts the unstable roots of a polynomial with so many coefficients a0, a1, ...
 
@@ -247,4 +257,4 @@ def _is_there(x: Any) -> bool:
 def _tape(inputs: Mapping[str, Any], outputs: Iterable[Any]) -> Tape:
     results = ca.vertcat(*map(ca.SX, outputs))
     used = [name for name, x in inputs.items() if x.is_symbolic() and ca.depends_on(results, x)]
-    return Tape(ca.Function("tape", [inputs[name] for name in used], [results], used, ["results"]))
+    return Tape(record(ca.Function("tape", [inputs[name] for name in used], [results], used, ["results"])))
