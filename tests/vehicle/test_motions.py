@@ -11,7 +11,7 @@ import pytest
 from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.vehicle.assembly import polynomial_matrix
 from yawdesign.vehicle.elements import Dashpot, Link, Mass, Maxwell, Spring, folded
-from yawdesign.vehicle.motions import COUPLED, motions
+from yawdesign.vehicle.motions import COUPLED, motions, polynomials
 from yawdesign.vehicle.polynomials import evaluate, product, scale_variable, trim
 from yawdesign.vehicle.state_space import fill
 from yawdesign.vehicle.vehicle import Model
@@ -324,7 +324,7 @@ def test_a_yaw_damper_without_a_name_is_refused(two_frames):
         motions(elements)
 
 
-@pytest.mark.parametrize("laws", [(Dashpot(2),), (Maxwell(3, 2), Spring(4)), (Maxwell(3, 2), Maxwell(3, 2))])
+@pytest.mark.parametrize("laws", [(Spring(4),), (Maxwell(3, 2), Spring(4)), (Maxwell(3, 2), Maxwell(3, 2))])
 def test_a_yaw_damper_is_one_damper_in_series_with_a_spring(two_frames, laws):
     elements = [replace(e, laws=laws) if isinstance(e, Link) and e.varied else e for e in two_frames(1)]
     with pytest.raises(ValueError, match="yaw damper 1 must be one damper"):
@@ -382,3 +382,19 @@ def test_no_yaw_damping_is_a_damping_too(table1):
     for motion in vehicle.motions:
         at_zero = trim(motion.polynomial(0.0))
         assert trim(vehicle.polynomials[motion.name]) == pytest.approx(at_zero, rel=1e-13)
+
+
+def test_a_rigidly_mounted_yaw_damper_is_the_limit_of_stiff_joints(two_frames, exact_determinant):
+    def mounted(law, C_s):
+        return [replace(e, laws=(law,)) if isinstance(e, Link) and e.varied else e for e in two_frames(C_s)]
+
+    C_s = Fraction(5, 3)
+    elements = mounted(Dashpot(C_s), C_s)
+    for motion in motions(elements):
+        assert trim(polynomials(elements)[motion.name]) == trim(motion.polynomial(C_s))
+    for k in range(13):
+        s = Fraction(2 * k - 11, 5)
+        assert evaluate(product(polynomials(elements).values()), s) == exact_determinant(elements, s)
+    stiff = polynomials(mounted(Maxwell(Fraction(10) ** 30, C_s), C_s))[COUPLED]
+    rigid = polynomials(elements)[COUPLED]
+    assert [float(a) for a in stiff[: len(rigid)]] == pytest.approx([float(a) for a in rigid], rel=1e-12)
