@@ -71,15 +71,19 @@ def others_stable(model: Model, zeros: Zeros = NO_ZEROS) -> Tape | None:
 
 
 @lru_cache
-def exceeding(model: Model, objective: str, names: Names, zeros: Zeros = NO_ZEROS) -> Tape:
-    """Return the tape of verdicts whether the margins of some motions exceed a level.
+def exceeding(model: Model, objective: str, names: Names, zeros: Zeros = NO_ZEROS, pairs: int = 0) -> Tape:
+    """Return the tape of verdicts whether the margins of some motions, all but so many pairs of roots, exceed a level.
 
     Inputs: parameters, C_s, v, and those of `beyond`. Outputs as those of `verdicts`.
     """
     vehicle, place = _vehicle(model, zeros), _place(objective)
     chosen = [motion for motion in vehicle.motions if motion.name in names]
     rows = [_beyond(objective, _scaled(motion, vehicle.C_s), place) for motion in chosen]
-    return _tape({**vehicle.p, **place}, _verdict(rows))
+    if not pairs:
+        return _tape({**vehicle.p, **place}, _verdict(rows))
+    beyond, doubts = (reduce(plus, x) for x in zip(*map(_count, rows), strict=True))
+    most = pairs * (2 if objective == "decay_rate" else 1)  # a sector's edge has one root of a stable pair beyond it
+    return _tape({**vehicle.p, **place}, [beyond < most + 0.5, doubts < 0.5])
 
 
 @lru_cache

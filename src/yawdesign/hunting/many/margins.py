@@ -60,7 +60,7 @@ def others_stable(sets: ParameterSets) -> tuple[Bools, Bools]:
 
 
 def exceeds(
-    sets: ParameterSets, objective: str, level: Float | float, variables: Collection[str]
+    sets: ParameterSets, objective: str, level: Float | float, variables: Collection[str], pairs: int = 0
 ) -> tuple[Bools, Bools]:
     """Return whether the margin of every vehicle exceeds a level, and whether that is sure.
 
@@ -74,8 +74,10 @@ def exceeds(
         Decay rate [1/s] or damping ratio [-]; a ratio below zero counts as zero.
     variables : collection of str
         Design variables; they decide which motions count in the margin.
+    pairs : int, optional
+        So many pairs of roots, those of the least margins, are left out.
     """
-    tape = counts.exceeding(sets.model, objective, sets.model.movable(variables), sets.zeros)
+    tape = counts.exceeding(sets.model, objective, sets.model.movable(variables), sets.zeros, pairs)
     if objective == "decay_rate":
         return _asked(tape, sets, _line(objective, np.asarray(level) / TIME_UNIT))
     level = np.asarray(level, dtype=float)
