@@ -10,6 +10,7 @@ from yawdesign.damper.capping import GIVEN_AWAY, CappingMode, at_design, capping
 from yawdesign.damper.curving import excess
 from yawdesign.damper.design_space import Space, fraction, scale
 from yawdesign.damper.forward import ForwardDesign, design, forward_design, others_stable, resistance
+from yawdesign.damper.local_nlp import LocalImprover
 from yawdesign.damper.nlp import Improver
 from yawdesign.damper.search import distinct, refine, search
 from yawdesign.damper.second_route import AGREE, hurwitz_positive, margin_by_routh
@@ -29,6 +30,7 @@ APART = 1e-3  # how far starts of the NLP must be from a better one
 MOST_REFINED = 8  # points after each turn of the NLP
 TURNS = ((6, 1e-3), (2, 1e-5))  # number of starts of the NLP, radius of the refinement after it
 MOST_SEARCHES = 9  # in five variables and more; what these miss, other seeds may find
+MOST_FACTORED = 30  # degree of polynomials; with that of a vehicle no start of the NLP of their factors converged
 ACTIVE = 1e-4  # a variable within this share of its range from a bound stands at the bound
 
 
@@ -192,7 +194,7 @@ def _searches(space: Space) -> int:
 
 def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
     """Return the best point after IPOPT and refinement in turn: each leaves the ridges on which the other stops."""
-    rng, margin, improver = np.random.default_rng(seed), space.margins_at(x), Improver(space, options)
+    rng, margin, improver = np.random.default_rng(seed), space.margins_at(x), _improver(space, options)
     order = distinct(x, margin, np.full(len(margin), APART))  # several searches find the same
     x, margin = x[:, order], margin[order]
     more = _searches(space)  # local optima multiply with the variables
@@ -206,6 +208,13 @@ def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progres
         x = refine(space, x[:, order], margin[order], rng, radius=radius, until=1e-11, rounds=30)
         margin = space.margins_at(x)
     return x[:, 0]
+
+
+def _improver(space: Space, options: Mapping[str, Any]) -> Improver | LocalImprover:
+    """Return the NLP of the whole polynomials, or that of models where coefficients of so high a degree say too little."""
+    movable = space.model.movable(space.names)
+    degrees = [len(p) - 1 for motion in space.model.motions if motion.name in movable for p in motion.coefficients]
+    return (LocalImprover if space.pairs or max(degrees) > MOST_FACTORED else Improver)(space, options)
 
 
 def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
