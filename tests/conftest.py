@@ -30,13 +30,13 @@ def pytest_configure():
 def pytest_generate_tests(metafunc):
     """Run a test that asks for `case` on every reference bogie, one that asks for a model on all three models.
 
-    One that asks for `reference` is run on every reference vehicle with a car body.
+    One that asks for `reference_case` is run on every reference vehicle with a car body.
     """
     if "case" in metafunc.fixturenames:
         names = [f"{c['name']}-{c['equations']}-{c['kind']}" for c in CASES]
         metafunc.parametrize("case", CASES, ids=names)
-    if "reference" in metafunc.fixturenames:
-        metafunc.parametrize("reference", VEHICLES, ids=[c["name"] for c in VEHICLES])
+    if "reference_case" in metafunc.fixturenames:
+        metafunc.parametrize("reference_case", VEHICLES, ids=[c["name"] for c in VEHICLES])
     if "model" in metafunc.fixturenames:
         models = [{"kind": kind, "equations": equations} for kind, equations in MODELS]
         metafunc.parametrize("model", models, ids=[" ".join(m) for m in MODELS])

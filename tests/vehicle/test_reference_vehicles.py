@@ -32,28 +32,28 @@ def moving(table1, car_body):
     return make
 
 
-def test_spectral_abscissa_and_least_damped(reference, independent):
-    p = parameters(reference)
-    vehicle = vehicle_of(p, reference["kind"])
-    second = np.linalg.eigvals(np.array(independent.equations(reference["kind"], p).state_matrix(), dtype=float))
-    expected = [complex(*x) for x in reference["least_damped"]]
+def test_spectral_abscissa_and_least_damped(reference_case, independent):
+    p = parameters(reference_case)
+    vehicle = vehicle_of(p, reference_case["kind"])
+    second = np.linalg.eigvals(np.array(independent.equations(reference_case["kind"], p).state_matrix(), dtype=float))
+    expected = [complex(*x) for x in reference_case["least_damped"]]
     for s in (eigenvalues(vehicle), second):
-        assert s.real.max() == pytest.approx(reference["spectral_abscissa"], rel=1e-8)
+        assert s.real.max() == pytest.approx(reference_case["spectral_abscissa"], rel=1e-8)
         # Motors that yaw against each other in each bogie are two equal roots, of which the list may have one.
         found = sorted(s[s.imag >= 0], key=lambda x: -x.real)[: len(expected)]
         assert np.all(np.abs(np.subtract(found, expected)) < 1e-8 * np.abs(expected))
 
 
-def test_roots_cross_at_the_critical_values(reference):
+def test_roots_cross_at_the_critical_values(reference_case):
     """At every critical value a pair lies on the axis, and as many roots as stated lie right of it between them."""
-    vehicle = vehicle_of(parameters(reference), reference["kind"])
-    values = reference["critical_C_s"]
-    for C_s, omega in zip(values, reference["omega"], strict=True):
+    vehicle = vehicle_of(parameters(reference_case), reference_case["kind"])
+    values = reference_case["critical_C_s"]
+    for C_s, omega in zip(values, reference_case["omega"], strict=True):
         s = np.linalg.eigvals(state_matrix(vehicle.replace(C_s=C_s)))
         assert np.min(np.abs(s - 1j * omega)) < 1e-7 * omega
     between = np.sqrt([a * b for a, b in zip([values[0] / 4, *values], [*values, values[-1] * 4], strict=True)])
     counts = [int(np.sum(eigenvalues(vehicle.replace(C_s=float(x))).real > 0)) for x in between]
-    assert counts == reference["unstable_roots_per_interval"]
+    assert counts == reference_case["unstable_roots_per_interval"]
 
 
 def test_a_car_body_on_bogies_held_fast(moving):
