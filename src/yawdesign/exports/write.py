@@ -55,7 +55,8 @@ def write_c(contents: FileContents, folder: Path) -> list[str]:
     problem = contents.problem
     kind = ", ".join((problem.bogie.kind, problem.equations, *in_words(problem)))
     title = problem.title or short_name(Model.of(problem)).capitalize()
-    about = f"{title} ({kind}): functions written by yawdesign {{yawdesign}} with CasADi {{casadi}}"
+    by = "yawdesign {yawdesign} with CasADi {casadi}".format(**versions())
+    about = f"{title} ({kind}): functions written by {by}"
     chosen = "critical_damping" if "critical_damping" in contents.functions else next(iter(contents.functions))
     texts = {
         names.source: source,
