@@ -10,7 +10,7 @@ from yawdesign.exports.described_vehicle import in_words, short_name
 from yawdesign.exports.file_contents import PREFIX, ExportNames, FileContents, Unavailable
 from yawdesign.exports.fmu.archive import write_fmu
 from yawdesign.exports.folder import check_place, exported_folder, write_text
-from yawdesign.exports.functions import c_source, functions, listed, self_test
+from yawdesign.exports.functions import c_source, functions, listed, self_test, versions
 from yawdesign.exports.manifest import write_manifest
 from yawdesign.exports.matlab import write_mat
 from yawdesign.problem import Problem, ProblemError
