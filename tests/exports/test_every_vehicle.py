@@ -21,6 +21,7 @@ from yawdesign.exports.functions import self_test
 from yawdesign.exports.parametric_model import ParametricModel
 from yawdesign.hunting.critical_damping import CriticalValue
 from yawdesign.problem.parameters import MOTOR_KEYS, CarBody
+from yawdesign.vehicle import elements
 from yawdesign.vehicle.vehicle import Model
 
 HERE = Path(__file__).parent
@@ -266,6 +267,8 @@ def small_powers(unit):
 def test_every_output_has_the_unit_that_it_says(name, quantity):
     if not outputs_exist(KINDS[name]):
         pytest.skip("forces of rigid dampers are no outputs of the state space")
+    if name == "added parts" and not hasattr(elements, "Point"):
+        pytest.skip("strokes of longitudinal primary dampers are angles")
     if "overturning" in KINDS[name].flags and quantity != "mass":
         pytest.skip("the acceleration of free fall is a number in it")
     change = units["UNITS"][quantity]

@@ -10,7 +10,7 @@ from yawdesign.exports.described_vehicle import in_words, short_name
 from yawdesign.exports.file_contents import PREFIX, ExportNames, FileContents, Unavailable
 from yawdesign.exports.fmu.archive import write_fmu
 from yawdesign.exports.folder import check_place, exported_folder, write_text
-from yawdesign.exports.functions import c_source, functions, listed, self_test
+from yawdesign.exports.functions import c_source, functions, listed, self_test, versions
 from yawdesign.exports.manifest import write_manifest
 from yawdesign.exports.matlab import write_mat
 from yawdesign.problem import Problem, ProblemError
@@ -55,7 +55,8 @@ def write_c(contents: FileContents, folder: Path) -> list[str]:
     problem = contents.problem
     kind = ", ".join((problem.bogie.kind, problem.equations, *in_words(problem)))
     title = problem.title or short_name(Model.of(problem)).capitalize()
-    about = f"{title} ({kind}): functions written by yawdesign {{yawdesign}} with CasADi {{casadi}}"
+    by = "yawdesign {yawdesign} with CasADi {casadi}".format(**versions())
+    about = f"{title} ({kind}): functions written by {by}"
     chosen = "critical_damping" if "critical_damping" in contents.functions else next(iter(contents.functions))
     texts = {
         names.source: source,
