@@ -21,8 +21,6 @@ from yawdesign.exports.functions import self_test
 from yawdesign.exports.parametric_model import ParametricModel
 from yawdesign.hunting.critical_damping import CriticalValue
 from yawdesign.problem.parameters import MOTOR_KEYS, CarBody
-from yawdesign.vehicle import elements
-from yawdesign.vehicle.vehicle import Model
 
 HERE = Path(__file__).parent
 equations = runpy.run_path(str(HERE / "independent_vehicle.py"))["equations"]
@@ -102,16 +100,8 @@ def same_roots(found, wanted):
     return left
 
 
-def outputs_exist(problem):
-    """Tell whether the state space gives the force of dampers with rigid joints."""
-    return "K_ds" in problem.keys or any("pair_force" in x for x in Model.of(problem).at(
-        problem.parameters(), v=max(problem.speeds)).state_space.outputs)  # fmt: skip
-
-
 def test_state_matrix_and_state_space(name):
     problem = KINDS[name]
-    if not outputs_exist(problem):
-        pytest.skip("forces of rigid dampers are no outputs of the state space")
     got, hand, model = evaluated(only(name, "state_matrix")), by_hand(problem), yd.state_space(problem)
     for A in (got["A"], model.A):
         assert not same_roots(np.linalg.eigvals(A), np.linalg.eigvals(hand.state_matrix()))
@@ -232,8 +222,8 @@ def test_rotational_resistance_and_dynamic_stiffness(name):
 
 def test_files_say_which_vehicle(name, tmp_path):
     problem = KINDS[name]
-    names = "state_matrix,dynamic_stiffness" if outputs_exist(problem) else "dynamic_stiffness"
-    formats = "c,casadi,mat" if outputs_exist(problem) else "c,casadi"
+    names = "state_matrix,dynamic_stiffness"
+    formats = "c,casadi,mat"
     result = yd.export(problem, tmp_path / "out", only=names, formats=formats)
     manifest = json.loads((tmp_path / "out" / "manifest.json").read_text(encoding="utf-8"))
     assert not result.notes
@@ -265,10 +255,6 @@ def small_powers(unit):
 
 @pytest.mark.parametrize("quantity", units["UNITS"])
 def test_every_output_has_the_unit_that_it_says(name, quantity):
-    if not outputs_exist(KINDS[name]):
-        pytest.skip("forces of rigid dampers are no outputs of the state space")
-    if name == "added parts" and not hasattr(elements, "Point"):
-        pytest.skip("strokes of longitudinal primary dampers are angles")
     if "overturning" in KINDS[name].flags and quantity != "mass":
         pytest.skip("the acceleration of free fall is a number in it")
     change = units["UNITS"][quantity]
@@ -285,8 +271,6 @@ def test_every_output_has_the_unit_that_it_says(name, quantity):
 
 @pytest.mark.slow
 def test_c_code_passes_its_self_test(name, tmp_path):
-    if not outputs_exist(KINDS[name]):
-        pytest.skip("forces of rigid dampers are no outputs of the state space")
     yd.export(KINDS[name], tmp_path / "out", formats="c")
     done = subprocess.run(["make", "-s", "-C", tmp_path / "out", "check"], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
@@ -295,8 +279,6 @@ def test_c_code_passes_its_self_test(name, tmp_path):
 
 def test_fmu(name, tmp_path, request):
     problem = KINDS[name]
-    if not outputs_exist(problem):
-        pytest.skip("forces of rigid dampers are no outputs of the state space")
     path = tmp_path / "one.fmu"
     assert yd.write_fmu(problem, path).platform
     assert validate_fmu(str(path)) == []
