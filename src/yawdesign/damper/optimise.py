@@ -197,7 +197,8 @@ def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progres
     rng, margin, improver = np.random.default_rng(seed), space.margins_at(x), _improver(space, options)
     order = distinct(x, margin, np.full(len(margin), APART))  # several searches find the same
     x, margin = x[:, order], margin[order]
-    more = _searches(space)  # local optima multiply with the variables
+    # Local optima multiply with the variables; models come from farther, and take longer.
+    more = _searches(space) if isinstance(improver, Improver) else 1
     for turn, (starts, radius) in enumerate(TURNS):
         progress("solving the NLP", turn / len(TURNS))
         starts = min(starts * more, x.shape[1])
