@@ -1,7 +1,7 @@
 """The design of largest margin that the curve allows: dense search, IPOPT, and a polish by verdicts."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from yawdesign.damper.status import Status
 from yawdesign.damper.worst_margin import WorstMargin
 from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.many.parameter_sets import ParameterSets
-from yawdesign.hunting.verdict import Mode, Stability, stability_at
+from yawdesign.hunting.verdict import CaseVerdict, Mode, Stability, judged, stability_at
 from yawdesign.problem import Curve, Problem, ProblemError
 from yawdesign.problem.arguments import Progress
 from yawdesign.problem.conditions import Condition
@@ -51,6 +51,28 @@ class Bound:
     min: float
     max: float
     position: float
+
+
+@dataclass(frozen=True)
+class SingleOptimum:
+    """What optimising one bogie under a car body that stands still would have answered for a vehicle.
+
+    Parameters
+    ----------
+    optimum : mapping
+        Values of the design variables, in SI units (None without motors).
+    margin : float or None
+        Its worst margin under the car body that stands still: [1/s] for a decay rate, [-] for a damping ratio.
+    margin_with_car_body : float or None
+        The worst margin of that design under the car body that moves [1/s], [-].
+    stable : bool
+        Whether it is stable there.
+    """
+
+    optimum: Mapping[str, float | None]
+    margin: float | None
+    margin_with_car_body: float | None
+    stable: bool
 
 
 @dataclass(frozen=True, repr=False)
@@ -97,8 +119,10 @@ class Optimum(Result):
         Names of those modes, such as ``"sway"``; with their frequencies where two have the same.
     capping_sensitivity : mapping
         d ln margin / d ln p [-] of the first of them for every parameter p and the speed v, the largest first.
-    requirements, cases : tuple
-        What was required and reached, and the faults that were looked at: none.
+    cases : tuple of CaseVerdict
+        Stability of the optimum with each fault of the problem.
+    requirements : tuple
+        What was required and reached: none.
     hurwitz_positive : bool
         Whether all Hurwitz minors of eq. (10) are positive at the optimum, under every condition.
     margin_polynomial : float or None
@@ -109,6 +133,8 @@ class Optimum(Result):
         The load that stands for Q in eq. (13): axle or wheel.
     forward : ForwardDesign
         The forward design with the optimum's bogie: critical values, stable intervals, golden section.
+    single_bogie : SingleOptimum or None
+        For a vehicle with a car body whose variables a bogie has: what one bogie alone would have answered.
     """
 
     optimum: Mapping[str, float | None]
@@ -136,7 +162,8 @@ class Optimum(Result):
     capped_by: str | None = None
     capping_sensitivity: Mapping[str, float] = field(default_factory=dict)
     requirements: tuple[Any, ...] = ()
-    cases: tuple[Any, ...] = ()
+    cases: tuple[CaseVerdict, ...] = ()
+    single_bogie: SingleOptimum | None = None
 
 
 def optimise(
@@ -178,7 +205,23 @@ def optimise(
         anchor = {name: float(values[name]) for name in space.names}
         space = Space(problem, pairs=len(capping), floor=(1 - GIVEN_AWAY) * least, anchor=anchor)
         x = _found(space, seed, options or {}, progress)
-    return _answer(space, x, capping)
+    return replace(_answer(space, x, capping), single_bogie=_single(space, seed, options))
+
+
+def _single(space: Space, seed: int, options: Mapping[str, Any] | None) -> SingleOptimum | None:
+    """Return what one bogie alone would have answered, and what that is worth under the car body."""
+    problem = space.problem.of_one_bogie
+    if problem is None or not set(space.names) <= set(problem.keys):
+        return None
+    alone = optimise(problem, seed=seed, options=options)
+    if alone.margin is None:
+        return SingleOptimum(alone.optimum, None, None, stable=False)
+    chosen = {name: bound.value for name, bound in alone.bounds.items()}
+    p = {name: float(value) for name, value in (space.problem.parameters() | chosen).items()}
+    vehicles = [space.model.at(condition.applied(p)) for condition in space.conditions]
+    results = [stability_at(vehicle, space.names) for vehicle in vehicles]
+    moving, _ = _worst(space, results)
+    return SingleOptimum(alone.optimum, alone.margin, moving, stable=all(result.stable for result in results))
 
 
 def _found(space: Space, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
@@ -250,6 +293,7 @@ def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
         hurwitz_positive=all(hurwitz_positive(vehicle) for vehicle in vehicles),
         margin_polynomial=second,
         checked=agree,
+        cases=tuple(judged(case, vehicles, space.conditions, space.names) for case in space.problem.cases),
     )
 
 

@@ -14,13 +14,13 @@ from yawdesign.problem import PARAMETERS, format_quantity
 
 if TYPE_CHECKING:
     from yawdesign.damper.forward import ForwardDesign
-    from yawdesign.damper.optimise import Optimum
+    from yawdesign.damper.optimise import Optimum, SingleOptimum
     from yawdesign.damper.single_bogie import SingleBogie
     from yawdesign.exports.write import Export
     from yawdesign.hunting.verdict import CaseVerdict, Mode, Stability
 
 DAMPING = "kN·s/m"
-SHOWN = 10  # sensitivities
+SHOWN, SHOWN_CAPPING = 10, 5  # sensitivities
 
 
 def titled(title: str, *columns: str) -> Table:
@@ -174,7 +174,7 @@ def optimum_tables(result: "Optimum") -> RenderableType:
     """Return the tables of an `Optimum`."""
     if result.margin is None:
         return Text(f"{result.status}: {result.message}")
-    own = _optimum_facts(result), _bounds(result), _modes(result.modes), _fixed(result)
+    own = [_optimum_facts(result), _bounds(result), *case_tables(result.cases), _modes(result.modes), _fixed(result)]
     return Group(*scope_lines(result.forward.scope), *own, design_tables(replace(result.forward, scope="")))
 
 
@@ -188,9 +188,30 @@ def _optimum_facts(result: "Optimum") -> Table:
         ("active limits", ", ".join(result.active) or "none: the optimum is inside its bounds"),
         ("answer", f"{result.status}: {result.message}"),
     ]
+    if result.capped_by is not None:
+        most = list(result.capping_sensitivity.items())[:SHOWN_CAPPING]
+        rows[2:2] = [
+            ("capped by, since the variables hardly move it", result.capped_by),
+            (f"{name} of all other modes", margin(result.next_margin, result.objective)),
+            (
+                "what moves the capping mode most",
+                ", ".join(f"{key} {value:+.2g}" for key, value in most) + " (% for 1 %)",
+            ),
+        ]
     if result.rotational_resistance is not None:
-        rows.insert(4, ("rotational resistance T/(4Qa)", f"{result.rotational_resistance:.5f}"))
+        rows.append(("rotational resistance T/(4Qa)", f"{result.rotational_resistance:.5f}"))
+    if result.single_bogie is not None:
+        rows += _single_rows(result, result.single_bogie)
     return facts("Optimum", rows)
+
+
+def _single_rows(result: "Optimum", alone: "SingleOptimum") -> list[tuple[str, str]]:
+    """Return what a single bogie would have answered, and what that is worth under the car body."""
+    found = ((name, alone.optimum[name]) for name in result.bounds)
+    values = [f"{name} = {format_quantity(x, PARAMETERS[name].unit)}" for name, x in found if x is not None]
+    still, moving = (margin(x, result.objective) for x in (alone.margin, alone.margin_with_car_body))
+    worth = f"{still}; with the car body {moving}" + ("" if alone.stable else ", UNSTABLE")
+    return [("one bogie under a car body standing still", ", ".join(values) or "no design"), ("its margin", worth)]
 
 
 def _bounds(result: "Optimum") -> Table:

@@ -105,6 +105,16 @@ class Problem:
         return self.bogie.parameters() | (self.car_body.parameters() if self.car_body else {})
 
     @property
+    def of_one_bogie(self) -> Self | None:
+        """The same problem for one bogie under a car body that stands still; None if it is that already."""
+        if self.car_body is None:
+            return None
+        vertical = {key: getattr(self.car_body, key) for key in VERTICAL} if self.bogie.I_b is not None else {}
+        kept = {key: variable for key, variable in self.design.variables.items() if key in bogie_keys(self.bogie.kind)}
+        design = replace(self.design, variables=kept)
+        return replace(self, car_body=None, bogie=replace(self.bogie, **vertical), cases=(), design=design)
+
+    @property
     def keys(self) -> tuple[str, ...]:
         """Names of its parameters, C_s among them, in the order of the table."""
         return present(self.parameters())
