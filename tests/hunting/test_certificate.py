@@ -8,6 +8,7 @@ import flint
 import pytest
 
 from yawdesign.hunting import certificate
+from yawdesign.hunting.boundary import hurwitz_minors, parameter_names
 from yawdesign.hunting.certificate import (
     certify,
     critical_values,
@@ -15,7 +16,7 @@ from yawdesign.hunting.certificate import (
     positive_roots,
     unstable_roots,
 )
-from yawdesign.problem import Written
+from yawdesign.problem import ProblemError, Written
 from yawdesign.vehicle.motions import COUPLED, Motion
 from yawdesign.vehicle.polynomials import product
 from yawdesign.vehicle.vehicle import Model, Vehicle
@@ -147,3 +148,11 @@ def test_without_flint_the_remedy_is_named(bogie, monkeypatch):
     monkeypatch.setattr(builtins, "__import__", without_flint)
     with pytest.raises(ImportError, match=r'pip install "yawdesign\[certify\]"'):
         critical_values(RECIPROCAL.at(bogie))
+
+
+@pytest.mark.parametrize("ask", [hurwitz_polynomial, lambda x: hurwitz_minors(x.model, parameter_names(x.p))])
+def test_the_papers_polynomial_is_refused_for_other_vehicles(reference_vehicle, ask):
+    with pytest.raises(ProblemError, match="one bogie"):
+        ask(reference_vehicle("trailer"))
+    with pytest.raises(ProblemError, match="joints"):
+        ask(reference_vehicle("trailer", K_ds=math.inf).bogie)

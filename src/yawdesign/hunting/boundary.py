@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.hunting.hurwitz import hurwitz_minors as generic_minors
+from yawdesign.hunting.hurwitz import require_paper_bogie
 from yawdesign.hunting.routh import TIME_UNIT
 from yawdesign.hunting.routh import routh_column as generic_column
 from yawdesign.vehicle.polynomials import Polynomial, evaluate, scale_variable
@@ -46,6 +47,7 @@ def routh_column(model: Model, names: Names) -> ca.Function:
 @lru_cache
 def hurwitz_minors(model: Model, names: Names) -> ca.Function:
     """Return sign and log10 of Delta_1 ... Delta_26 (16 without motors) as a CasADi Function of p and C_s."""
+    require_paper_bogie(model)
     p, values = _symbols(names)
     C_s = ca.SX.sym("C_s")
     chi = model.at(values, C_s=C_s).paper_coefficients(TIME_UNIT)

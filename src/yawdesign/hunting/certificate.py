@@ -13,6 +13,7 @@ from itertools import cycle, pairwise
 from typing import Any
 
 from yawdesign.hunting.exact import resultant
+from yawdesign.hunting.hurwitz import require_paper_bogie
 from yawdesign.problem import exact
 from yawdesign.vehicle.polynomials import Polynomial, evaluate, even_odd, trim
 from yawdesign.vehicle.vehicle import Vehicle
@@ -169,7 +170,13 @@ def hurwitz_polynomial(vehicle: Vehicle) -> tuple[Fraction, ...]:
     -------
     tuple of Fraction
         50 coefficients (30 without motors), exact, for s in 1/s and C_s in N s/m.
+
+    Raises
+    ------
+    ProblemError
+        If the vehicle has a car body, or yaw dampers mounted rigidly: (11) is not written for these.
     """
+    require_paper_bogie(vehicle.model)
     from_flint, numbers = _flint(), _exact(vehicle)
 
     def minor(C_s: Any) -> Any:

@@ -14,8 +14,8 @@ import numpy as np
 
 from yawdesign.hunting.boundary import polish
 from yawdesign.hunting.eigenvalues import backward_error, count_undamped, motion_eigenvalues
-from yawdesign.hunting.exact import NotDecidedError, exact_critical_values
-from yawdesign.hunting.many.critical_values import CriticalField, critical_field, recomputed
+from yawdesign.hunting.many.critical_table import CriticalField
+from yawdesign.hunting.many.critical_values import critical_field, recomputed
 from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.receptance import Receptance
 from yawdesign.hunting.routh import TIME_UNIT
@@ -90,7 +90,8 @@ def critical_damping(vehicle: Vehicle) -> CriticalDamping:
     vehicle : Vehicle
         Its numbers are floats; its own C_s is not looked at.
     """
-    found, counts, checked = _of_one_damper(vehicle) if len(vehicle.coupled.coefficients) == 2 else _of_more(vehicle)
+    linear = len(vehicle.coupled.coefficients) == 2
+    found, counts, checked = _of_one_damper(vehicle) if linear else vehicle_values(vehicle)
     values = tuple(
         CriticalValue(C_s, omega, _becomes(before, after), _residual(vehicle.coupled, C_s, omega))
         for (C_s, omega), (before, after) in zip(found, pairwise(counts), strict=True)
@@ -108,18 +109,6 @@ def _of_one_damper(vehicle: Vehicle) -> VehicleValues:
     if not field.recomputed[0]:
         found = polish(vehicle, found)
     return VehicleValues(tuple(found), field.counts_at(0), not field.unverified[0])
-
-
-def _of_more(vehicle: Vehicle) -> VehicleValues:
-    """Return what belongs to several links of yaw dampers, with many digits where double precision does not decide."""
-    found = vehicle_values(vehicle)
-    if found.decided:
-        return found
-    try:
-        exact = exact_critical_values(vehicle)
-    except NotDecidedError:
-        return found
-    return VehicleValues(tuple((float(x), float(w)) for x, w in exact.critical), exact.unstable_roots, True)
 
 
 def _eigenvalues_agree(vehicle: Vehicle, field: CriticalField) -> bool:

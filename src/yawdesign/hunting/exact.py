@@ -236,9 +236,9 @@ def _damping(parts: Sequence[Digits], x: Decimal, digits: int) -> Decimal:
         (ea, oa), (eb, ob), (ec, oc) = halves
         top, bottom = (ec * oa, -ea * oc), (eb * oc, -ec * ob)
     for terms in (top, bottom):
-        if abs(sum(terms)) < sum(map(abs, terms)).scaleb(-digits // 4):
+        if abs(terms[0] + terms[1]) < (abs(terms[0]) + abs(terms[1])).scaleb(-digits // 4):
             raise NotDecidedError("the sign of a critical damping is open")
-    return Decimal(sum(top) / sum(bottom))
+    return Decimal((top[0] + top[1]) / (bottom[0] + bottom[1]))
 
 
 def _places(values: Sequence[Decimal]) -> list[Decimal]:

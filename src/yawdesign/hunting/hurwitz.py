@@ -11,6 +11,17 @@ from typing import Any
 import numpy as np
 
 from yawdesign.hunting.routh import TIME_UNIT, routh_column
+from yawdesign.problem import ProblemError
+from yawdesign.vehicle.vehicle import Model
+
+
+def require_paper_bogie(model: Model) -> None:
+    """Raise an error if eq. (9) is not written for a model: it is that of one bogie whose yaw dampers have joints."""
+    if model.has_car_body or "C_s" not in model.joints:
+        raise ProblemError(
+            "eq. (9) and its Hurwitz minors are those of one bogie whose yaw dampers have joints: "
+            "leave out the car body and give K_ds, or ask Routh's column"
+        )
 
 
 def hurwitz_minors(chi: Sequence[Any], unit: float = TIME_UNIT, functions: Any = np) -> tuple[list[Any], list[Any]]:

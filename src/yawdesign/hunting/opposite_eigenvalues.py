@@ -67,8 +67,9 @@ def _channels(vehicle: Vehicle) -> tuple[Float, Float, Float, Float]:
             own = place[2 * half + k]
             columns.append((np.eye(len(A))[own], A[own] * C_s, 0.0))  # the row of the stroke is a multiple of mu
     masses = {e.coordinate: e for e in system.elements if isinstance(e, Mass)}
-    for link in system.elements:
-        if isinstance(link, Link) and link.varied and link.share and not link.maxwell:  # a joint that is rigid
+    dampers = [e for e in system.elements if isinstance(e, Link) and e.varied]
+    for link in dampers:
+        if link.share and not link.maxwell:  # a joint that is rigid
             push, rate = np.zeros((2, len(A)))
             for x, mass in masses.items():
                 if x in coupled.coordinates:

@@ -17,7 +17,7 @@ from yawdesign.vehicle.polynomials import Polynomial, derivative, evaluate, time
 from yawdesign.vehicle.vehicle import Vehicle
 
 ITERATIONS = 30
-CONVERGED, ENOUGH = 1e-13, 1e-8  # relative length of the last step: of all, and with which one counts as found
+CONVERGED, ENOUGH = 1e-12, 1e-8  # relative length of the last step: of all, and with which one counts as found
 
 
 class Crossings(NamedTuple):
@@ -67,8 +67,8 @@ class Receptance:
         return len(self._shares)
 
     def at(self, s: Complex) -> tuple[Complex, Complex]:
-        """Return M and its derivative with respect to s, shape (n, m, m), at n places; of many vehicles each has its own."""
-        Z, slope = np.zeros((2, len(s), len(self._place), len(self._place)), dtype=complex)
+        """Return M and its derivative with respect to s, shape (n, m, m), at n places: of many vehicles, one each."""
+        Z, slope = np.zeros((2, len(s), len(self._place), len(self._place)), dtype=np.complex128)
         for element in self._others:
             for (row, column), value, steep in _stiffness(element, s):
                 if row in self._place and column in self._place:
@@ -81,7 +81,7 @@ class Receptance:
         response = np.linalg.solve(Z, force)
         G = displacement @ response
         steep = -displacement @ np.linalg.solve(Z, slope @ response)
-        share = np.zeros((n, self.size, 1))
+        share: Any = np.zeros((n, self.size, 1))
         for k, (own, soft) in enumerate(zip(self._shares, self._softness, strict=True)):
             share[:, k, 0] = own
             G[:, k, k] += soft
@@ -93,11 +93,11 @@ class Receptance:
         values, _ = self.eigenvalues(np.full(n, TIME_UNIT))
         return np.asarray(1 / np.abs(values).max(axis=1))
 
-    def followed(self, mu: Complex, omega: Float) -> Crossings:
+    def followed(self, mu: Complex, omega: Float, steps: int = ITERATIONS) -> Crossings:
         """Return where the eigenvalue of M(j omega) nearest to mu becomes real, by Newton's method over omega."""
         w, wanted = omega, mu
         with np.errstate(all="ignore"):
-            for _ in range(ITERATIONS):
+            for _ in range(steps):
                 values, slopes = self.eigenvalues(w)
                 k = np.argmin(np.abs(values - wanted[:, None]), axis=1)[:, None]
                 value, slope = (np.take_along_axis(x, k, axis=1)[:, 0] for x in (values, slopes))
@@ -111,7 +111,7 @@ class Receptance:
 
     def eigenvalues(self, omega: Float) -> tuple[Complex, Complex]:
         """Return the eigenvalues of M(j omega) and their derivatives with respect to omega, shape (n, m)."""
-        M, steep = self.at(1j * omega)
+        M, steep = self.at(np.asarray(1j * omega, dtype=np.complex128))
         lost = ~(np.isfinite(M) & np.isfinite(steep)).all(axis=(1, 2))
         M[lost] = 0
         values, right = np.linalg.eig(M)

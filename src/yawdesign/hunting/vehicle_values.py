@@ -1,4 +1,4 @@
-"""All critical values of a vehicle in double precision, by three routes that check each other.
+"""All critical values of a vehicle with several links of yaw dampers, by three routes that check each other.
 
 The state matrix gives every C_s at which two eigenvalues are opposite to each other; from there the receptance at the
 yaw dampers leads to the roots on the imaginary axis, to the last digits; and eigenvalues and Routh's array of the
@@ -15,6 +15,7 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Bools, Complex, Float
 from yawdesign.hunting.eigenvalues import count_undamped, motion_eigenvalues, polished
+from yawdesign.hunting.exact import NotDecidedError, exact_critical_values
 from yawdesign.hunting.opposite_eigenvalues import opposite_eigenvalues
 from yawdesign.hunting.receptance import Receptance
 from yawdesign.hunting.routh import count_unstable
@@ -32,7 +33,7 @@ Value = tuple[float, float, float]  # C_s, omega, direction
 
 
 class VehicleValues(NamedTuple):
-    """Critical values and the unstable roots between them, as double precision has them.
+    """Critical values and the unstable roots between them.
 
     Parameters
     ----------
@@ -41,7 +42,7 @@ class VehicleValues(NamedTuple):
     unstable_roots : tuple of int
         From C_s towards 0 to C_s towards infinity.
     decided : bool
-        Whether all counts agree.
+        Whether all counts agree; otherwise they are no verdict.
     """
 
     critical: tuple[tuple[float, float], ...]
@@ -50,13 +51,25 @@ class VehicleValues(NamedTuple):
 
 
 def vehicle_values(vehicle: Vehicle) -> VehicleValues:
-    """Return all critical values of the yaw damping of the coupled motion.
+    """Return all critical values of the yaw damping, computed with many digits where double precision does not decide.
 
     Parameters
     ----------
     vehicle : Vehicle
         Its numbers are floats; its own C_s is not looked at.
     """
+    found = in_double_precision(vehicle)
+    if found.decided:
+        return found
+    try:
+        exact = exact_critical_values(vehicle)
+    except NotDecidedError:
+        return found
+    return VehicleValues(tuple((float(x), float(w)) for x, w in exact.critical), exact.unstable_roots, True)
+
+
+def in_double_precision(vehicle: Vehicle) -> VehicleValues:
+    """Return the critical values as double precision has them. Parameters as in `vehicle_values`."""
     receptance = Receptance(vehicle)
     if not receptance.size:
         routh, eigenvalues = count_unstable(vehicle.coupled.polynomial(0)), _unstable(vehicle, 0.0, 0)

@@ -137,3 +137,21 @@ def test_several_changes_in_one_cell(random_bogies, monkeypatch):
             assert few == pytest.approx(many, rel=1e-8)
             found_two += 1
     assert found_two > 1
+
+
+@pytest.mark.parametrize(("kind", "changes"), [("trailer", {"lambda": 0.25}), ("power", {"lambda": 0.15, "C_s": 3e5})])
+def test_a_vehicle_with_a_car_body(reference_vehicle, kind, changes):
+    vehicle = reference_vehicle(kind, **{"C_s": 1e6, **changes})
+    speeds, field = found(vehicle)
+    v = np.linspace(*SEARCHED, 400)
+    counts = np.sum(eigenvalues(vehicle, v).real > 0, axis=-1)
+    above = np.searchsorted(speeds, v)
+    assert counts.tolist() == field.unstable_roots[0][above].tolist()
+    assert len(speeds) >= 2
+
+
+def test_sway_of_a_car_body_bounds_the_speed_too(reference_vehicle):
+    vehicle = reference_vehicle("power", **{"lambda": 0.05, "C_s": 1.047e6})
+    (speed,), field = found(vehicle)
+    assert field.omega[0, 0] < 12  # hunting has more
+    assert np.max(eigenvalues(vehicle, speed * 0.99).real) < 0 < np.max(eigenvalues(vehicle, speed * 1.01).real)

@@ -133,16 +133,18 @@ def coefficients(model: Model, name: str, zeros: Zeros = NO_ZEROS) -> Tape:
 
 
 @lru_cache
-def boundaries(model: Model, zeros: Zeros = NO_ZEROS) -> tuple[Tape, tuple[int, int, int]]:
+def boundaries(model: Model, zeros: Zeros = NO_ZEROS) -> tuple[Tape, tuple[int, ...]]:
     """Return the tape of the polynomials that give the critical values, and their lengths.
 
-    The outputs are A, B, both in s / (100 rad/s), and E_B O_A - E_A O_B in x = w^2, lowest power first.
+    The outputs are the polynomials that the powers of C_s multiply, in s / (100 rad/s), lowest power first. Where there
+    are two, A and B, then comes E_B O_A - E_A O_B in x = w^2.
     """
     vehicle = _vehicle(model, zeros)
-    A, B = (scale_variable(_without_zeros(q), TIME_UNIT) for q in vehicle.coupled.coefficients)
-    (even_a, odd_a), (even_b, odd_b) = even_odd(A), even_odd(B)
-    F = _without_zeros(add(multiply(even_b, odd_a), scale(multiply(even_a, odd_b), -1)))
-    return _tape(vehicle.p, [*A, *B, *F]), (len(A), len(B), len(F))
+    parts = [scale_variable(_without_zeros(q), TIME_UNIT) for q in vehicle.coupled.coefficients]
+    if len(parts) == 2:
+        (even_a, odd_a), (even_b, odd_b) = map(even_odd, parts)
+        parts.append(_without_zeros(add(multiply(even_b, odd_a), scale(multiply(even_a, odd_b), -1))))
+    return _tape(vehicle.p, [a for part in parts for a in part]), tuple(map(len, parts))
 
 
 @lru_cache

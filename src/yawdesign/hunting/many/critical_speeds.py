@@ -14,7 +14,7 @@ import numpy as np
 from yawdesign.hunting.arrays import Bools, Complex, Float, Index
 from yawdesign.hunting.eigenvalues import count_undamped
 from yawdesign.hunting.many import counts
-from yawdesign.hunting.many.critical_values import Rows
+from yawdesign.hunting.many.critical_table import Rows
 from yawdesign.hunting.many.margins import eigenvalues
 from yawdesign.hunting.many.parameter_sets import ParameterSets
 

@@ -9,7 +9,6 @@ count differs from the one before by what the crossing root's velocity says. Wha
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,70 +16,43 @@ import numpy as np
 from yawdesign.hunting.arrays import Array, Bools, Float, Index
 from yawdesign.hunting.exact import ExactValues, NotDecidedError, exact_critical_values
 from yawdesign.hunting.many import counts
+from yawdesign.hunting.many.critical_table import CriticalField, Rows, counted, natural_damping
 from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.many.root_isolation import isolate
-from yawdesign.hunting.receptance import Receptance
+from yawdesign.hunting.many.vehicle_branches import followed_branches
 from yawdesign.hunting.routh import TIME_UNIT
+from yawdesign.hunting.vehicle_values import VehicleValues, vehicle_values
 from yawdesign.vehicle.polynomials import even_odd
 from yawdesign.vehicle.vehicle import Vehicle
 
 ACCURATE = 5e-9  # largest relative error of a critical value that rounding may cause
 ROUNDING = 2e-15  # of the coefficients
-FAR = 1e60  # from a damping whose joint relaxes at 100 rad/s to where 0 and infinity are looked at
 CONVERGED = 1e-10  # relative length of the last step; Newton's method has then squared its error
 ITERATIONS = 100
 
 
-@dataclass(frozen=True)
-class CriticalField:
-    """Critical values of many points.
-
-    Parameters
-    ----------
-    critical, omega : array, shape (n, m)
-        C_s [N s/m] in rising order, and angular frequency [rad/s]; filled up with NaN.
-    unstable_roots : array, shape (n, m + 1)
-        Number of roots in the right half-plane in every interval between them, from C_s towards 0 to C_s towards
-        infinity; filled up with NaN.
-    recomputed : array of bool, shape (n,)
-        Whether double precision did not decide, and the values come from decimals of many digits.
-    unverified : array of bool, shape (n,)
-        Whether these did not decide either: the values are those of double precision and no verdict.
-    """
-
-    critical: Float
-    omega: Float
-    unstable_roots: Float
-    recomputed: Bools
-    unverified: Bools
-
-    def values_at(self, k: int) -> tuple[list[float], list[float]]:
-        """Return the critical values of a point, and their frequencies."""
-        known = ~np.isnan(self.critical[k])
-        return self.critical[k][known].tolist(), self.omega[k][known].tolist()
-
-    def counts_at(self, k: int) -> tuple[int, ...]:
-        """Return the number of unstable roots in every interval of a point."""
-        row = self.unstable_roots[k]
-        return tuple(int(count) for count in row[~np.isnan(row)])
-
-
 def critical_field(sets: ParameterSets) -> CriticalField:
-    """Return the critical values of many vehicles, computed with many digits where double precision does not decide.
+    """Return the critical values of many vehicles, one by one and with many digits where this way does not decide.
 
     Parameters
     ----------
     sets : ParameterSets
         With ``v``; their own ``C_s`` is not looked at.
     """
-    field, passed = in_double_precision(sets)
+    field, passed = (in_double_precision if _is_linear(sets) else followed_branches)(sets)
     failed = np.flatnonzero(~passed)
     return recomputed(field, sets, failed) if len(failed) else field
 
 
+def _is_linear(sets: ParameterSets) -> bool:
+    """Return whether the polynomial is linear in C_s: there is one link of yaw dampers."""
+    return len(sets.model.motions[0].coefficients) == 2
+
+
 def recomputed(field: CriticalField, sets: ParameterSets, points: Iterable[int]) -> CriticalField:
-    """Return the field with some of its points computed with many digits."""
-    found = {k: _exact(sets.vehicle_at(k)) for k in points}
+    """Return the field with some of its points computed by themselves, with many digits where there is need."""
+    one = _exact if _is_linear(sets) else _one
+    found = {k: one(sets.vehicle_at(k)) for k in points}
     least = max(field.critical.shape[1], *(len(x.critical) for x in found.values() if x), 0)
     critical, omega = (_widened(x, least) for x in (field.critical, field.omega))
     unstable = _widened(field.unstable_roots, least + 1)
@@ -99,6 +71,11 @@ def _exact(vehicle: Vehicle) -> ExactValues | None:
         return exact_critical_values(vehicle)
     except NotDecidedError:
         return None
+
+
+def _one(vehicle: Vehicle) -> VehicleValues | None:
+    found = vehicle_values(vehicle)
+    return found if found.decided else None
 
 
 def _widened(rows: Float, width: int) -> Float:
@@ -171,7 +148,7 @@ def in_double_precision(sets: ParameterSets) -> tuple[CriticalField, Bools]:
         found = _crossings(A, B, isolated.owner, x)
     rows = Rows(found.owner, found.C_s, n)
     critical, omega, direction, error = map(rows.spread, found[1:])
-    unstable, doubtful = _counted(A, B, critical, _natural(sets))
+    unstable, doubtful = counted((A, B), critical, natural_damping(sets))
     known = ~np.isnan(critical)
     steps = np.diff(unstable, axis=1)
     with np.errstate(invalid="ignore"):
@@ -257,59 +234,3 @@ def value_and_slope(p: Float, x: Array) -> tuple[Array, Array]:
         value *= x
         value += a
     return value, slope
-
-
-class Rows:
-    """A table with a row for every point, filled from its left end with values in rising order.
-
-    Parameters
-    ----------
-    owner : array of int
-        To which point each value belongs.
-    key : array
-        By what the values of a point are ordered.
-    n : int
-        Number of points.
-    """
-
-    def __init__(self, owner: Index, key: Float, n: int) -> None:
-        self._order = np.lexsort((key, owner))
-        self._owner = owner[self._order]
-        self.count = np.bincount(owner, minlength=n)
-        self._rank = np.arange(len(owner)) - np.repeat(np.cumsum(self.count) - self.count, self.count)
-
-    def spread(self, column: Float) -> Float:
-        """Return the table of a column; what is not there is NaN."""
-        out = np.full((len(self.count), int(self.count.max(initial=0))), np.nan)
-        out[self._owner, self._rank] = column[self._order]
-        return out
-
-
-def _natural(sets: ParameterSets) -> Float:
-    """Return the C_s whose joint relaxes at 100 rad/s; for a rigid joint one of the vehicle's size."""
-    joint = sets.model.joints.get("C_s")
-    if joint is None:
-        return Receptance(sets.vehicle).natural(sets.size)
-    return np.broadcast_to(sets.values[joint], sets.size) / TIME_UNIT
-
-
-def _counted(A: Float, B: Float, critical: Float, natural: Float) -> tuple[Float, Bools]:
-    """Return the number of unstable roots in every interval of C_s, and where a count is doubtful."""
-    n, m = critical.shape
-    C_s = np.full((n, m + 1), np.nan)
-    # Each value's upper neighbour; beyond the last one infinity.
-    upper = np.concatenate([critical[:, 1:], np.full((n, 1), np.nan)], axis=1)[:, :m]
-    C_s[:, 1:] = np.where(np.isnan(upper), FAR * natural[:, None], np.sqrt(critical) * np.sqrt(upper))
-    C_s[:, 1:][np.isnan(critical)] = np.nan
-    C_s[:, 0] = natural / FAR
-    row, column = np.nonzero(~np.isnan(C_s))
-    size = max(len(A), len(B))
-    core = np.zeros((size, len(row)))
-    core[: len(A)] += np.take(A, row, axis=1)
-    core[: len(B)] += C_s[row, column] * np.take(B, row, axis=1)
-    count, doubts = counts.counts(size)({f"a{k}": core[k] for k in range(size)})
-    unstable = np.full((n, m + 1), np.nan)
-    unstable[row, column] = count
-    doubtful = np.zeros(n, dtype=bool)
-    doubtful[row[doubts > 0]] = True
-    return unstable, doubtful
