@@ -4,13 +4,17 @@ python examples/sweeps.py [FOLDER FOR CSV FILES]
 """
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 import yawdesign as yd
+from yawdesign.problem.parameters import CarBody
 
 FOLDER = Path(__file__).parents[1] / "docs" / "figures"
+# A car body of 34.5 t, as in the page on sweeps.
+CAR_BODY = CarBody(M_c=34500, J_c=1.521e6, I_c=124304, l_c=9.5, h_s=0.852, h_t=0.97, K_2z=610e3, C_2z=9800)
 
 
 def sweeps():
@@ -18,12 +22,18 @@ def sweeps():
     table1 = yd.table1(equations="as-printed")
     # Closer together where the motors move at the frequency of the hunting motion and the curve folds.
     f_m = np.unique(np.concatenate([np.linspace(1, 8, 281), np.linspace(3.2, 3.6, 161), np.linspace(3.22, 3.24, 41)]))
+    standing = yd.table1().replace(lambda_=0.05, C_s="1046.77 kN s/m")
+    moving = replace(standing, car_body=CAR_BODY)
+    chart = {"C_s": "10 kN s/m:10 MN s/m:60:log", "v": "150 km/h:450 km/h:60"}
     return {
         "fig3a-damping-held": yd.sweep(table1, of="critical", f_m=f_m),
         "fig3a-ratio-held": yd.sweep(table1, of="critical", f_m=f_m, hold="xi_m"),
         "fig3b": yd.sweep(table1, of="critical", xi_m="0.02:1:491"),
         "chart": yd.sweep(table1, of="stable", C_s="10 kN s/m:10 MN s/m:300:log", v="200 km/h:500 km/h:300"),
         "least-damping": yd.sweep(table1, of="C_sl", f_m="1:8:300", v="150 km/h:450 km/h:300"),
+        "chart-standing": yd.sweep(standing, of="stable", **chart),
+        "chart-moving": yd.sweep(moving, of="stable", **chart),
+        "map-moving": yd.sweep(moving, of="damping_ratio", lambda_="0.02:0.4:60", creep_factor="0.4:1:60"),
     }
 
 

@@ -1,5 +1,6 @@
 """Reference bogies, random bogies and exact arithmetic for the tests."""
 
+import importlib.util
 import json
 import signal
 from fractions import Fraction
@@ -13,6 +14,8 @@ from yawdesign.vehicle.vehicle import Model
 
 CASES = json.loads((Path(__file__).parent / "data" / "cases.json").read_text(encoding="utf-8"))["cases"]
 TABLE_1 = CASES[0]["bogie"]
+VEHICLES = json.loads((Path(__file__).parent / "data" / "vehicle.json").read_text(encoding="utf-8"))["cases"]
+CAR_BODY = VEHICLES[0]["car_body"]
 MODELS = [("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal")]
 
 
@@ -25,10 +28,15 @@ def pytest_configure():
 
 
 def pytest_generate_tests(metafunc):
-    """Run a test that asks for `case` on every reference bogie, one that asks for a model on all three models."""
+    """Run a test that asks for `case` on every reference bogie, one that asks for a model on all three models.
+
+    One that asks for `reference_case` is run on every reference vehicle with a car body.
+    """
     if "case" in metafunc.fixturenames:
         names = [f"{c['name']}-{c['equations']}-{c['kind']}" for c in CASES]
         metafunc.parametrize("case", CASES, ids=names)
+    if "reference_case" in metafunc.fixturenames:
+        metafunc.parametrize("reference_case", VEHICLES, ids=[c["name"] for c in VEHICLES])
     if "model" in metafunc.fixturenames:
         models = [{"kind": kind, "equations": equations} for kind, equations in MODELS]
         metafunc.parametrize("model", models, ids=[" ".join(m) for m in MODELS])
@@ -154,6 +162,21 @@ def mutated():
     return mutate
 
 
+@pytest.fixture(scope="session")
+def independent():
+    """Return the module that writes the equations a second time, with nothing of the package."""
+    spec = importlib.util.spec_from_file_location("independent", Path(__file__).parent / "vehicle" / "independent.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="session")
+def car_body():
+    """The car body of the reference vehicles in SI units."""
+    return dict(CAR_BODY)
+
+
 @pytest.fixture
 def table1():
     """Table I in SI units at 300 km/h, as floats."""
@@ -191,6 +214,20 @@ def vehicle_named(vehicle_of_case):
         return vehicle_of_case(next(c for c in CASES if c["name"] == name), exact=True)
 
     return find
+
+
+@pytest.fixture(scope="session")
+def reference_vehicle():
+    """Return the vehicle with a car body of a reference, or the first of a kind, with other numbers; inf is rigid."""
+
+    def vehicle(reference, **changes):
+        if isinstance(reference, str):
+            reference = next(c for c in VEHICLES if c["kind"] == reference)
+        p = {**reference["bogie"], **reference["car_body"], "v": reference["speed_kmh"] / 3.6, **changes}
+        p = {name: x for name, x in p.items() if x != np.inf}
+        return Model(reference["kind"], "reciprocal", (*p, "C_s")).at(p)
+
+    return vehicle
 
 
 @pytest.fixture(scope="session")

@@ -1,13 +1,16 @@
 """The command `simulate`: exit codes, JSON, files."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import yawdesign as yd
 from yawdesign.cli import app
+from yawdesign.problem.parameters import CarBody
 
 TABLE_1 = Path(__file__).parents[1] / "problems" / "table1.yaml"
 RUN = CliRunner()
@@ -92,3 +95,21 @@ def test_bad_input(options, message, tmp_path, monkeypatch):
     assert result.exit_code == 2, result.output
     assert message in result.stderr
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_car_body_on_two_bogies(tmp_path, monkeypatch):
+    body = CarBody(M_c=34500, J_c=1.521e6, I_c=124304, l_c=9.5, h_s=0.852, h_t=0.97, K_2z=610e3, C_2z=9800)
+    problem = replace(yd.table1().replace(C_s="1 MN s/m"), car_body=body)
+    monkeypatch.setattr("yawdesign.cli.responses.read_problem", lambda file: problem)
+    png, csv = tmp_path / "run.png", tmp_path / "run.csv"
+    options = ["--plot", png, "--response", "y_b1", "--response", "y_b2", "--csv", csv, "--duration", "3 s"]
+    result = run(TABLE_1, "--json", *options)
+    assert result.exit_code == 0, result.stderr
+    data = json.loads(result.stdout)
+    assert [damper["name"] for damper in data["dampers"]] == ["yaw damper 1", "yaw damper 2"]
+    assert data["runs"][0]["rms_weighted"]["y_c2_acceleration"] < data["rms"]["y_c2_acceleration"]
+    assert "y_c1_acceleration [m/s^2]" in csv.read_text().split("\n", 1)[0]
+    assert png.read_bytes().startswith(b"\x89PNG")
+    apart = run(TABLE_1, "--plot", tmp_path / "x.png", "--response", "y_b1", "--response", "psi_c", "--duration", "3 s")
+    assert apart.exit_code == 2
+    assert "psi_c is counted in rad, y_b1 in m: draw them apart" in apart.stderr

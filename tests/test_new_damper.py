@@ -1,6 +1,6 @@
-"""A damper that is new: a primary damper takes two rows of the parameter table and a link in the catalogue of vehicles.
+"""A damper that is new, over each wheelset, takes two rows of the parameter table and a link in the catalogue.
 
-A copy of the package gets these two edits and nothing else; what is then asked of it stands in primary_damper.py.
+A copy of the package gets these two edits and nothing else; what is then asked of it stands in end_damper.py.
 """
 
 import ast
@@ -16,7 +16,7 @@ import pytest
 
 import yawdesign
 
-QUESTIONS = Path(__file__).with_name("primary_damper.py")
+QUESTIONS = Path(__file__).with_name("end_damper.py")
 TESTS = {
     node.name: "slow" in "".join(map(ast.unparse, node.decorator_list))
     for node in ast.parse(QUESTIONS.read_text(encoding="utf-8")).body
@@ -26,17 +26,22 @@ QUICK, SLOW = ([name for name, slow in TESTS.items() if slow == which] for which
 OWN = Path(yawdesign.__file__).parent
 
 LINK = """\
-        Link(
-            (Maxwell(p["K_d1"] / 2, p["C_1y"]),), {"y_b": 1, "y_w": -1}, lever={"phi_b": p["a"]}, name="primary damper"
-        ),
+        Pair((Link(
+            (Maxwell(p["K_de"] / 2, p["C_e"]),),
+            {"y_b": 1, **_height(p, -1, "h_2t"), **_above(p, "h_t")},
+            lever={"phi_b": p["a"], **({"psi_c": times(-1, p["a"])} if body else {})},
+            outer={"psi_c": times(-1, p["l_c"])} if body else {},
+            name="end damper",
+        ),)),
 """
+NEXT_TO = "        Pair((lateral_damper,)),\n"
 
 
 def with_rows(text):
     """Return the parameter table with two more rows, those of the secondary lateral dampers under other names."""
     for old, new, symbol, of in (
-        ("C_t", "C_1y", "C_{1y}", "of the primary damper of each wheelset"),
-        ("K_dt", "K_d1", r"K_\mathrm{d1}", "of a primary damper"),
+        ("C_t", "C_e", r"C_\mathrm{e}", "of each end damper"),
+        ("K_dt", "K_de", r"K_\mathrm{de}", "of an end damper"),
     ):
         (row,) = re.findall(rf"^    {old}: .*?\)\n(?=    \w+: |\n)", text, re.DOTALL | re.MULTILINE)
         copy = row.replace(f"    {old}: ", f"    {new}: ")
@@ -48,10 +53,9 @@ def with_rows(text):
 
 
 def with_link(text):
-    """Return the catalogue with one more link in the wheelset's pair."""
-    begin = text.index("    wheelset = (\n")
-    end = text.index("\n    )\n", begin) + 1
-    return text[:end] + LINK + text[end:]
+    """Return the catalogue with one more pair of dampers on the frame."""
+    assert text.count(NEXT_TO) == 1
+    return text.replace(NEXT_TO, NEXT_TO + LINK)
 
 
 EDITS = {Path("problem/parameters.py"): with_rows, Path("vehicle/catalogue.py"): with_link}
@@ -59,7 +63,7 @@ EDITS = {Path("problem/parameters.py"): with_rows, Path("vehicle/catalogue.py"):
 
 @pytest.fixture(scope="module")
 def package(tmp_path_factory):
-    """Return a folder with a copy of the package in which the bogie has a primary damper."""
+    """Return a folder with a copy of the package in which the bogie has an end damper."""
     folder = tmp_path_factory.mktemp("package")
     shutil.copytree(OWN, folder / "yawdesign", ignore=shutil.ignore_patterns("__pycache__"))
     for path, edit in EDITS.items():
@@ -92,14 +96,14 @@ def slow(package):
 
 
 @pytest.mark.parametrize("name", QUICK)
-def test_a_primary_damper(name, quick):
+def test_an_end_damper(name, quick):
     if quick[name]:
         pytest.fail("\n".join(quick[name]), pytrace=False)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SLOW)
-def test_a_primary_damper_slow(name, slow):
+def test_an_end_damper_slow(name, slow):
     if slow[name]:
         pytest.fail("\n".join(slow[name]), pytrace=False)
 

@@ -24,6 +24,7 @@ from yawdesign.problem import Problem as Problem
 from yawdesign.problem import ProblemError as ProblemError
 from yawdesign.problem import SpeedRange as SpeedRange
 from yawdesign.problem import Variable as Variable
+from yawdesign.problem import creep_coefficients as creep_coefficients
 from yawdesign.problem import load as load
 from yawdesign.problem import loads as loads
 from yawdesign.problem import schema as schema

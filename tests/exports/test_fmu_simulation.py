@@ -1,13 +1,13 @@
 """The FMU in FMPy: it moves as the matrix exponential says, with every parameter and with parameters that change."""
 
-import ctypes
 import itertools
+import runpy
+from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi3 import FMU3Model
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
@@ -15,6 +15,7 @@ import yawdesign as yd
 from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.vehicle.vehicle import Model
 
+Unit = runpy.run_path(str(Path(__file__).with_name("fmu_unit.py")))["Unit"]
 TOLERANCE = 1e-6  # of the largest value; CVode is asked for 1e-9 in every step
 INPUTS = ("alignment_1", "cross_level_1", "alignment_2", "cross_level_2")
 TABLE_1 = yd.table1()
@@ -51,36 +52,6 @@ def table1_fmu(tmp_path_factory):
     path = tmp_path_factory.mktemp("fmu") / "bogie.fmu"
     yd.write_fmu(TABLE_1, path)
     return str(path)
-
-
-class Unit:
-    """One instance of an FMU, for calls of single functions."""
-
-    def __init__(self, path, folder):
-        description = fmpy.read_model_description(path)
-        self.fmu = FMU3Model(
-            guid=description.instantiationToken,
-            unzipDirectory=fmpy.extract(path, folder),
-            modelIdentifier=description.modelExchange.modelIdentifier,
-            instanceName="bogie",
-        )
-        self.fmu.instantiate()
-        self.references = {variable.name: variable.valueReference for variable in description.modelVariables}
-        self.states = [v.variable.derivative.name for v in description.derivatives]
-
-    def set(self, values):
-        self.fmu.setFloat64([self.references[name] for name in values], list(values.values()))
-
-    def get(self, *names):
-        return self.fmu.getFloat64([self.references[name] for name in names])
-
-    def derivatives(self, x, t=0.0):
-        n = len(x)
-        derivatives = (ctypes.c_double * n)()
-        self.fmu.setTime(t)
-        self.fmu.setContinuousStates((ctypes.c_double * n)(*x), n)
-        self.fmu.getContinuousStateDerivatives(derivatives, n)
-        return np.array(derivatives)
 
 
 @pytest.fixture

@@ -233,7 +233,7 @@ def test_nested_derivatives():
 @pytest.mark.filterwarnings("ignore")
 @pytest.mark.parametrize("method", ["newton", "kinsol"])
 def test_only_fast_newton_becomes_c(method):
-    model, names = Model(), ParametricModel.of(yd.table1(), None).bogie
+    model, names = Model(), ParametricModel.of(yd.table1(), None).names
     with pytest.raises(RuntimeError, match="cannot write C code"):
         c_source("bad", {"bad": boundary.rootfinder(model, names, method=method)})
     assert "#error" not in c_source("good", {"good": boundary.rootfinder(model, names, method="fast_newton")})

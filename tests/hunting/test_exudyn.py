@@ -1,8 +1,8 @@
-"""The bogie built a second time, from bodies, springs and dampers at their places, in the multibody code Exudyn.
+"""Bogie and vehicle built a second time, from bodies, springs and dampers at their places, in the code Exudyn.
 
-Nothing of the model's equations is used: bodies are rigid in the plane, connectors act between points of bodies, the
-pistons of the dampers are points without mass, and the wheel-rail contact is a force at each of the four wheels. So a
-sign, an arm or a reaction that is wrong in the model shows here.
+Nothing of the model's equations is used: bodies are rigid in the plane, the car body in space, connectors act between
+points of bodies, the pistons of the dampers are points without mass, and the wheel-rail contact is a force at each of
+the four wheels. So a sign, an arm or a reaction that is wrong in the model shows here.
 """
 
 from types import SimpleNamespace
@@ -17,10 +17,12 @@ from exudyn.itemInterface import (
     MarkerNodePosition,
     NodePoint2D,
     NodeRigidBody2D,
+    NodeRigidBodyRxyz,
     ObjectConnectorCartesianSpringDamper,
     ObjectConnectorTorsionalSpringDamper,
     ObjectGround,
     ObjectMassPoint2D,
+    ObjectRigidBody,
     ObjectRigidBody2D,
     SensorNode,
 )
@@ -34,7 +36,12 @@ X, Y = 0, 1
 
 
 class Assembly:
-    """A bogie in the plane: x forward, y to the left, yaw from x to y; only its car body stands still."""
+    """A bogie in the plane: x forward, y to the left, yaw from x to y; only its car body stands still.
+
+    `moving` are the coordinates that are looked at, `along` those of motions along the track, up and in pitch.
+    """
+
+    coupled = 0.0  # largest share of a stiffness between what is looked at and what is not
 
     def __init__(self, p, C_s):
         self.p = SimpleNamespace(**{k.rstrip("_"): v for k, v in p.items() if k != "lambda"}, conicity=p["lambda"])
@@ -42,16 +49,23 @@ class Assembly:
         self.system = self.container.AddSystem()
         self.ground = self.system.AddObject(ObjectGround())
         self.nodes, self.pistons = {}, []
+        self.moving, self.along = [], []
         self.build(C_s)
         self.system.Assemble()
 
     def body(self, name, x, mass, inertia):
         node = self.system.AddNode(NodeRigidBody2D(referenceCoordinates=[x, 0, 0]))
         self.nodes[name] = node
+        self.moving += [(node, 1), (node, 2)]
+        self.along += [(node, 0)]
         return self.system.AddObject(ObjectRigidBody2D(mass=mass, inertia=inertia, nodeNumber=node))
 
-    def point(self, body, x, y):
-        return self.system.AddMarker(MarkerBodyPosition(bodyNumber=body, localPosition=[x, y, 0]))
+    def point(self, body, x, y, z=0):
+        return self.system.AddMarker(MarkerBodyPosition(bodyNumber=body, localPosition=[x, y, z]))
+
+    def above(self, x, y, height):
+        """Return the point of the car body at a place, so much below its centre of mass."""
+        return self.point(self.ground, x, y)
 
     def piston(self, x, y):
         node = self.system.AddNode(NodePoint2D(referenceCoordinates=[x, y]))
@@ -73,36 +87,40 @@ class Assembly:
         self.connect(far, second, (joint, joint))
 
     def build(self, C_s):
-        p, ground = self.p, self.ground
-        frame = self.body("b", 0, p.M_b, p.J_b)
-        for side in SIDES:
-            spring = self.point(ground, 0, side * p.b_2), self.point(frame, 0, side * p.b_2)
-            self.connect(*spring, (p.K_2x / 2, p.K_2y / 2))
-            at = (0, side * p.b_3)
-            self.damper(self.point(ground, *at), self.point(frame, *at), at, X, p.K_ds, C_s / 2)
-        for number, end in enumerate(ENDS, start=1):
-            at = (end * p.b_0, 0)
-            self.damper(self.point(ground, *at), self.point(frame, *at), at, Y, p.K_dt, p.C_t / 2)
-            self.wheelset(frame, number, end * p.a)
-            self.motor(frame, number, end * p.a_0)
+        self.bogie("", 0, C_s)
 
-    def wheelset(self, frame, number, x):
+    def bogie(self, name, middle, C_s):
         p = self.p
-        wheelset = self.body(f"w{number}", x, p.M_w, p.J_w)
+        frame = self.body(f"b{name}", middle, p.M_b, p.J_b)
+        for side in SIDES:
+            at = self.above(middle, side * p.b_2, "h_s"), self.point(frame, 0, side * p.b_2)
+            self.connect(*at, (p.K_2x / 2, p.K_2y / 2))
+            at = (middle, side * p.b_3)
+            self.damper(self.above(*at, ""), self.point(frame, 0, side * p.b_3), at, X, p.K_ds, C_s / 2)
+        for number, end in enumerate(ENDS, start=1):
+            at = (middle + end * p.b_0, 0)
+            self.damper(self.above(*at, "h_t"), self.point(frame, end * p.b_0, 0), at, Y, p.K_dt, p.C_t / 2)
+            self.wheelset(frame, f"{name}{number}", end * p.a, middle)
+            self.motor(frame, f"{name}{number}", end * p.a_0, middle)
+        return frame
+
+    def wheelset(self, frame, name, x, middle):
+        p = self.p
+        wheelset = self.body(f"w{name}", middle + x, p.M_w, p.J_w)
         for side in SIDES:
             box = self.point(frame, x, side * p.b_1), self.point(wheelset, 0, side * p.b_1)
             self.connect(*box, (p.K_1x / 2, p.K_1y / 2))
-            wheel = self.point(self.ground, x, side * p.b), self.point(wheelset, 0, side * p.b)
+            wheel = self.point(self.ground, middle + x, side * p.b), self.point(wheelset, 0, side * p.b)
             self.system.AddObject(
                 ObjectConnectorCartesianSpringDamper(markerNumbers=list(wheel), springForceUserFunction=self.rail(side))
             )
 
-    def motor(self, frame, number, x):
+    def motor(self, frame, name, x, middle):
         p = self.p
-        motor = self.body(f"m{number}", x, p.M_m, p.J_m)
+        motor = self.body(f"m{name}", middle + x, p.M_m, p.J_m)
         hangers = self.point(frame, x, 0), self.point(motor, 0, 0)
         self.connect(*hangers, (0, p.K_m))
-        self.damper(*hangers, (x, 0), Y, p.K_dm, p.C_m)
+        self.damper(*hangers, (middle + x, 0), Y, p.K_dm, p.C_m)
         ends = [
             self.system.AddMarker(MarkerBodyRigid(bodyNumber=body, localPosition=place))
             for body, place in ((frame, [x, 0, 0]), (motor, [0, 0, 0]))
@@ -140,13 +158,13 @@ class Assembly:
     def eigenvalues(self):
         """Return the finite eigenvalues of lateral motion and yaw."""
         M, K, D = exu.ComputeLinearizedSystem(self.system, self.settings())
-        moving = [self.coordinate(node, c) for node in self.nodes.values() for c in (1, 2)]
+        moving = [self.coordinate(*place) for place in self.moving]
         pistons = [self.coordinate(node, c) for node in self.pistons for c in (0, 1)]
         own = np.array(moving + pistons)
         # Bodies do not move along the track: nothing but the two yaw dampers against each other would notice.
-        along = [self.coordinate(node, 0) for node in self.nodes.values()]
-        assert not np.any(K[np.ix_(moving, along)])
-        assert not np.any(D[np.ix_(moving, along)])
+        along = [self.coordinate(*place) for place in self.along]
+        for matrix in (K, D):
+            assert np.abs(matrix[np.ix_(moving, along)]).max() <= self.coupled * np.abs(matrix).max()
         n, unit = len(moving), 1e7
         M, K, D = (matrix[np.ix_(own, own)] / unit for matrix in (M, K, D))
         # States: velocities of the bodies, then all positions. The rows of the pistons have no inertia.
@@ -177,6 +195,35 @@ class Assembly:
         return {body: self.system.GetSensorStoredData(sensor) for body, sensor in sensors.items()}
 
 
+class WholeVehicle(Assembly):
+    """A car body that moves in space, on two bogies in the plane."""
+
+    coupled = 1e-9  # the car body's are found by differences
+
+    def build(self, C_s):
+        p = self.p
+        node = self.system.AddNode(NodeRigidBodyRxyz(referenceCoordinates=[0] * 6))
+        inertia = [p.I_c, p.J_c, p.J_c, 0, 0, 0]  # roll, pitch, yaw
+        self.car_body = self.system.AddObject(ObjectRigidBody(mass=p.M_c, inertia=inertia, nodeNumber=node))
+        self.moving += [(node, 1), (node, 3), (node, 5)]
+        self.along += [(node, 0), (node, 2), (node, 4)]
+        for name, end in (("1", 1), ("2", -1)):
+            frame = self.bogie(name, end * p.l_c, C_s)
+            for side in SIDES:
+                at = self.above(end * p.l_c, side * p.b_2, "h_s"), self.point(frame, 0, side * p.b_2)
+                self.system.AddObject(
+                    ObjectConnectorCartesianSpringDamper(
+                        markerNumbers=list(at),
+                        stiffness=[0, 0, p.K_2z],
+                        damping=[0, 0, p.C_2z],
+                        offset=[0, 0, p.h_s],
+                    )
+                )
+
+    def above(self, x, y, height):
+        return self.point(self.car_body, x, y, -getattr(self.p, height) if height else 0)
+
+
 def expected_eigenvalues(p, C_s):
     """Return the eigenvalues of the model, with the two yaw dampers against each other."""
     return np.append(np.linalg.eigvals(state_matrix(Model().at(p, C_s=C_s))), -p["K_ds"] / C_s)
@@ -200,6 +247,32 @@ def test_eigenvalues_of_random_bogies(table1):
     for p, C_s in random_reciprocal_bogies(table1, 50, seed=1):
         found = Assembly(p, C_s).eigenvalues()
         assert largest_difference(found, expected_eigenvalues(p, C_s)) < 1e-6
+
+
+def vehicle_eigenvalues(p, C_s):
+    """Return the eigenvalues of the model with a car body, with the yaw dampers of each bogie against each other."""
+    model = Model("power", "reciprocal", (*p, "C_s"))
+    return np.append(np.linalg.eigvals(state_matrix(model.at(p, C_s=C_s))), [-p["K_ds"] / C_s] * 2)
+
+
+def random_vehicles(table1, car_body, n, seed):
+    """Return bogies as above, with every number of the car body times or divided by up to 2."""
+    rng = np.random.default_rng(seed)
+    for p, C_s in random_reciprocal_bogies(table1, n, seed):
+        yield {**p, **{name: value * 2.0 ** rng.uniform(-1, 1) for name, value in car_body.items()}}, C_s
+
+
+def test_eigenvalues_of_random_vehicles(table1, car_body):
+    for p, C_s in random_vehicles(table1, car_body, 20, seed=3):
+        found = WholeVehicle(p, C_s).eigenvalues()
+        assert largest_difference(found, vehicle_eigenvalues(p, C_s)) < 1e-6
+
+
+def test_every_parameter_of_the_car_body_counts(table1, car_body):
+    expected = vehicle_eigenvalues({**table1, **car_body}, 1e6)
+    for name in car_body:
+        changed = WholeVehicle({**table1, **car_body, name: car_body[name] * 1.01}, 1e6).eigenvalues()
+        assert largest_difference(changed, expected) > 1e-5, name
 
 
 def test_every_parameter_counts(table1):

@@ -1,6 +1,7 @@
 """Pictures and tables of motion: they draw what the result holds, with units."""
 
 import io
+from dataclasses import replace
 
 import pytest
 from rich.console import Console
@@ -8,6 +9,7 @@ from rich.console import Console
 import yawdesign as yd
 from yawdesign.output.response_plots import meaning
 from yawdesign.output.response_tables import damper_tables, simulation_tables
+from yawdesign.problem.parameters import CarBody
 
 PROBLEM = yd.table1(equations="as-printed").replace(C_s="1 046 770 N s/m")
 
@@ -47,10 +49,57 @@ def test_spectrum_and_damper(result):
     assert given.get_ylabel() == "|Z| of the pair [MN/m]"
 
 
+@pytest.fixture(scope="module")
+def vehicle():
+    body = CarBody(M_c=34500, J_c=1.521e6, I_c=124304, l_c=9.5, h_s=0.852, h_t=0.97, K_2z=610e3, C_2z=9800)
+    return replace(yd.table1().replace(C_s="1 MN s/m"), car_body=body)
+
+
+def legend(ax):
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def test_pictures_of_a_vehicle(vehicle):
+    result = yd.simulate(vehicle, speed=["250 km/h", "300 km/h"], duration=3)
+    ax = yd.plot(result)
+    assert ax.get_ylabel() == "Lateral acceleration of the car body above the bogie [m/s²]"
+    assert legend(ax) == [f"{end}, {v} km/h" for v in (250, 300) for end in ("leading", "trailing")]
+    assert ax.lines[3].get_ydata() == pytest.approx(result.histories[1]["y_c2_acceleration"])
+    both = yd.plot(result, response=["y_b1", "y_b2"], speeds=[300 / 3.6])
+    assert legend(both) == ["leading", "trailing"]
+    assert "300 km/h" in both.get_title("left")
+    assert legend(yd.plot(result, response=["y_b1", "y_w12"], speeds=[300 / 3.6])) == ["y_b1", "y_w12"]
+    with pytest.raises(yd.ProblemError, match="phi_b1 is counted in rad, y_b1 in m"):
+        yd.plot(result, response=["y_b1", "phi_b1"])
+    response = yd.plot(yd.frequency_response(vehicle, [10, 20]))
+    assert legend(response) == ["y_c", "y_b1", "y_b2"]
+    assert response.get_ylabel() == "Lateral displacement [m per m of alignment]"
+
+
+def test_tables_of_a_vehicle(vehicle):
+    text = printed(simulation_tables(yd.simulate(vehicle, duration=5)))
+    for part in ("y_c1_acceleration", "W_d of ISO", "phi_m22", "to order (leading bogie)", "to order (trailing bogie)"):
+        assert part in text
+    assert "lateral force (rear, trailing bogie)" in text
+
+
+def test_pictures_and_tables_of_rigid_dampers():
+    damper = yd.simulate(yd.table1().replace(C_s="200 kN s/m", K_ds="rigid"), duration=3).damper
+    assert "joints rigid" in yd.plot(damper).get_title("left")
+    assert "rigidly mounted" in printed(damper_tables(damper))
+
+
 def test_what_responses_are_called():
     assert meaning("phi_w2_velocity") == "yaw velocity of the rear wheelset"
     assert meaning("motor_damper_stroke_1") == "motor damper stroke (front)"
     assert meaning("alignment_1") == "alignment (front)"
+    assert meaning("phi_b_acceleration") == "yaw acceleration of the frame"
+    assert meaning("y_w12") == "lateral displacement of the rear wheelset of the leading bogie"
+    assert meaning("th_b2_velocity") == "roll velocity of the frame of the trailing bogie"
+    assert meaning("psi_c") == "yaw displacement of the car body"
+    assert meaning("y_c1_acceleration") == "lateral acceleration of the car body above the leading bogie"
+    assert meaning("alignment_21") == "alignment (front, trailing bogie)"
+    assert meaning("yaw_damper_pair_force_2") == "yaw damper pair force (trailing bogie)"
 
 
 def printed(tables):

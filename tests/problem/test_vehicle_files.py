@@ -101,8 +101,8 @@ BAD = {
     "height in another quantity": ("0.852 m", "0.852 kg", 7, "0.852 kg is a mass, expected a length such as m"),
     "height in millimetres": ("0.852 m", "852", 7, "852 is outside -10 ... 10 m"),
     "as printed": ("bogie", "equations: as-printed\nbogie", 1, "the printed equations have no car body: write recipro"),
-    "bogie key in the car body": ("  M_c", "  f_11: 3\n  M_c", 3, "not a known key here; it belongs under bogie"),
-    "car body key in the bogie": ("W:", "h_s: 1 m, W:", 1, "is not a known key here; it belongs under car_body"),
+    "bogie key in the car body": ("  M_c", "  f_11: 3\n  M_c", 3, "here; it belongs under bogie"),
+    "car body key in the bogie": ("W:", "h_s: 1 m, W:", 1, "here; it belongs under car_body"),
     "car body key at the margin": (
         "bogie:",
         "M_c: 3 t\nbogie:",
@@ -264,7 +264,7 @@ def test_the_starter_with_a_car_body_reads_without_a_word(kind):
 @pytest.mark.parametrize("kind", ["power", "trailer"])
 def test_what_a_starter_has_as_comments_reads_without_a_word(kind, car_body):
     text = starter(kind, car_body=car_body)
-    written = re.sub(r"^  # (?!base)([\w]+: )", r"  \1", text, flags=re.MULTILINE)
+    written = re.sub(r"^  # (?!base|creep)([\w]+: )", r"  \1", text, flags=re.MULTILINE)
     written = re.sub(r"^# (cases:|  .*\{.*%.*)", r"\1", written, flags=re.MULTILINE)
     assert found(written) == ()
     problem = loads(written)

@@ -29,18 +29,23 @@ REFUSED = (
 )
 
 
+def allowed(kind):
+    """Return the names of all axes that a bogie of some kind has."""
+    own = BOGIES[kind].parameters()
+    derived = [name for name in ROWS if name not in yd.PARAMETERS and not (kind == "trailer" and ROWS[name].motor)]
+    return [*own, *derived]
+
+
 def usual(kind, name):
     """Return two values of an axis around that of the problem."""
     value = {"v": 80.0, "f_m": 3.0, "xi_m": 0.3, "creep_factor": 0.9}.get(name)
-    value = float(BOGIES[kind].bogie.parameters()[name]) if value is None else value
+    value = float(BOGIES[kind].parameters()[name]) if value is None else value
     return [value, 1.01 * value]
 
 
 def grids(kind, of, number):
     """Yield all axes that may be asked together, with what is held."""
-    for names in combinations(ROWS, number):
-        if kind == "trailer" and any(ROWS[name].motor for name in names):
-            continue
+    for names in combinations(allowed(kind), number):
         axes = [(name, usual(kind, name)) for name in names]
         for hold in HOLDS if {"f_m", "M_m", "K_m"} & {*names} and kind == "power" else (None,):
             if not refusal(kind, of, axes, hold):

@@ -11,8 +11,8 @@ import pytest
 from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.vehicle.assembly import polynomial_matrix
 from yawdesign.vehicle.elements import Dashpot, Link, Mass, Maxwell, Spring, folded
-from yawdesign.vehicle.motions import COUPLED, motions
-from yawdesign.vehicle.polynomials import evaluate, product, scale_variable
+from yawdesign.vehicle.motions import COUPLED, motions, polynomials
+from yawdesign.vehicle.polynomials import evaluate, product, scale_variable, trim
 from yawdesign.vehicle.state_space import fill
 from yawdesign.vehicle.vehicle import Model
 
@@ -324,8 +324,77 @@ def test_a_yaw_damper_without_a_name_is_refused(two_frames):
         motions(elements)
 
 
-@pytest.mark.parametrize("laws", [(Dashpot(2),), (Maxwell(3, 2), Spring(4)), (Maxwell(3, 2), Maxwell(3, 2))])
+@pytest.mark.parametrize("laws", [(Spring(4),), (Maxwell(3, 2), Spring(4)), (Maxwell(3, 2), Maxwell(3, 2))])
 def test_a_yaw_damper_is_one_damper_in_series_with_a_spring(two_frames, laws):
     elements = [replace(e, laws=laws) if isinstance(e, Link) and e.varied else e for e in two_frames(1)]
     with pytest.raises(ValueError, match="yaw damper 1 must be one damper"):
         motions(elements)
+
+
+BODY = {"M_c": 34500.0, "J_c": 1.521e6, "I_c": 124304.0, "l_c": 9.5, "h_s": 0.852, "h_t": 0.97, "K_2z": 610e3}
+BODY |= {"C_2z": 9800.0}
+
+
+def with_car_body(vehicle, rng, spread, C_s):
+    """Return a vehicle with a car body on two bogies such as a given one."""
+    body = {name: value * spread ** rng.uniform(-1, 1) for name, value in BODY.items()}
+    p = {**vehicle.p, **body, "C_s": C_s}
+    return Model(vehicle.model.kind, parameters=tuple(p)).at(p)
+
+
+@pytest.mark.parametrize("number", [3, pytest.param(50, marks=pytest.mark.slow)])
+def test_polynomials_at_the_yaw_damping_of_a_vehicle_are_exact(number, random_vehicles, rational_vehicle):
+    rng, worst = np.random.default_rng(17), 0.0
+    for drawn in random_vehicles(number, spread=3, seed=number):
+        vehicle = with_car_body(drawn, rng, 3.0, 10 ** rng.uniform(3, 8))
+        exact = rational_vehicle(vehicle)
+        assert list(exact.polynomials) == [motion.name for motion in exact.motions]
+        for motion in exact.motions:
+            assert exact.polynomials[motion.name] == motion.polynomial(exact.C_s)
+            worst = max(worst, relative_error(vehicle.polynomials[motion.name], exact.polynomials[motion.name]))
+    assert worst < 1e-12
+
+
+def test_polynomials_at_the_yaw_damping_of_a_bogie_are_exact(random_vehicles, rational_vehicle):
+    for drawn in random_vehicles(30, spread=10, seed=18):
+        vehicle = drawn.replace(C_s=3e5)
+        exact = rational_vehicle(vehicle)
+        for motion in exact.motions:
+            assert exact.polynomials[motion.name] == motion.polynomial(exact.C_s)
+            assert relative_error(vehicle.polynomials[motion.name], exact.polynomials[motion.name]) < 1e-12
+
+
+@pytest.mark.parametrize(("body", "most"), [({}, 1600), (BODY, 14000)], ids=["bogie", "vehicle"])
+def test_the_graph_at_one_yaw_damping_is_smaller_than_that_by_powers(table1, body, most):
+    p = {name: ca.SX.sym(name) for name in {**table1, **body, "C_s": 0}}
+    vehicle = Model(parameters=tuple(p)).at(p)
+
+    def operations(found):
+        return ca.Function("f", [*p.values()], [ca.vertcat(*(ca.SX(a) for q in found for a in q))]).n_instructions()
+
+    own = operations(vehicle.polynomials.values())
+    assert own < most
+    assert own < operations(motion.polynomial(vehicle.C_s) for motion in vehicle.motions)
+
+
+def test_no_yaw_damping_is_a_damping_too(table1):
+    vehicle = Model().at(table1, C_s=0.0)
+    for motion in vehicle.motions:
+        at_zero = trim(motion.polynomial(0.0))
+        assert trim(vehicle.polynomials[motion.name]) == pytest.approx(at_zero, rel=1e-13)
+
+
+def test_a_rigidly_mounted_yaw_damper_is_the_limit_of_stiff_joints(two_frames, exact_determinant):
+    def mounted(law, C_s):
+        return [replace(e, laws=(law,)) if isinstance(e, Link) and e.varied else e for e in two_frames(C_s)]
+
+    C_s = Fraction(5, 3)
+    elements = mounted(Dashpot(C_s), C_s)
+    for motion in motions(elements):
+        assert trim(polynomials(elements)[motion.name]) == trim(motion.polynomial(C_s))
+    for k in range(13):
+        s = Fraction(2 * k - 11, 5)
+        assert evaluate(product(polynomials(elements).values()), s) == exact_determinant(elements, s)
+    stiff = polynomials(mounted(Maxwell(Fraction(10) ** 30, C_s), C_s))[COUPLED]
+    rigid = polynomials(elements)[COUPLED]
+    assert [float(a) for a in stiff[: len(rigid)]] == pytest.approx([float(a) for a in rigid], rel=1e-12)

@@ -9,7 +9,18 @@ import pytest
 from yawdesign.problem.parameters import PARAMETERS
 from yawdesign.problem.units import parse_unit
 from yawdesign.vehicle.assembly import polynomial_matrix
-from yawdesign.vehicle.elements import Dashpot, Link, Mass, Maxwell, Pair, Spring, WheelRailContact, folded, physical
+from yawdesign.vehicle.elements import (
+    Dashpot,
+    Link,
+    Mass,
+    Maxwell,
+    Pair,
+    Point,
+    Spring,
+    WheelRailContact,
+    folded,
+    physical,
+)
 from yawdesign.vehicle.polynomials import evaluate, trim
 from yawdesign.vehicle.signals import acceleration, velocity
 from yawdesign.vehicle.state_space import StateSpace, fill
@@ -238,15 +249,53 @@ def test_what_needs_no_name_has_none():
     assert (system.inputs, system.B, system.D) == ((), {}, {})
 
 
-@pytest.mark.parametrize(("K", "c"), [(np.inf, 2.0), (3.0, 0), (3.0, 0.0)])
-def test_a_damper_without_a_stroke_has_no_outputs(K, c):
-    system = StateSpace([Mass("x", 1.0), Link((Maxwell(K, c),), {"x": 1}, name="damper")])
+@pytest.mark.parametrize("law", [Maxwell(3.0, 0), Maxwell(3.0, 0.0), Maxwell(np.inf, 0.0), Dashpot(0.0)])
+def test_a_damper_without_damping_has_no_outputs(law):
+    system = StateSpace([Mass("x", 1.0), Link((law,), {"x": 1}, name="damper")])
     assert system.states == ("x", "x_velocity")
     assert not any("damper" in name for name in system.outputs)
-    assert system.A.get((1, 1), 0) == (-2.0 if c else 0)
-    if not c:  # whoever asks for the force of a damper that is not there gets it
-        assert system.rows_of(["damper_force"]) == ({}, {})
-        assert system.unit_of("damper_force") == "N"
+    assert system.A.get((1, 1), 0) == 0
+    # Whoever asks for the force of a damper that is not there gets it.
+    assert system.rows_of(["damper_force"]) == ({}, {})
+    assert system.unit_of("damper_force") == "N"
+
+
+@pytest.mark.parametrize("law", [Maxwell(np.inf, 2.0), Dashpot(2.0)])
+@pytest.mark.parametrize("pieces", [1, 2])
+def test_a_rigid_damper_has_a_force_and_no_stroke(law, pieces):
+    system = StateSpace([Mass("x", 4.0), Link((Spring(3.0), law), {"x": 0.5}, name="damper 1", pieces=pieces)])
+    assert system.states == ("x", "x_velocity")
+    assert system.A[1, 1] == -2.0 * 0.5**2 / 4.0
+    expected = {"damper_force_1": {1: 2.0 * 0.5 / pieces}}
+    expected |= {"damper_pair_force_1": {1: 1.0}, "damper_displacement_1": {0: 0.5}} if pieces == 2 else {}
+    assert {name: {j: x for (_, j), x in system.rows_of([name])[0].items()} for name in system.outputs[3:]} == expected
+
+
+def test_points_of_a_body():
+    body = [
+        Mass("y", 2.0),
+        Mass("psi", 3.0, unit="rad"),
+        Link((Spring(6.0),), {"psi": 1}),
+        Link((Spring(8.0),), {"y": 1}),
+    ]
+    point = Pair((Point("y", {"y": 1}, lever={"psi": 5.0}),))
+    system = StateSpace([*body, *physical([point])])
+    assert system.outputs[:4] == ("y", "psi", "y1", "y2")
+    C, D = system.rows_of(["y1", "y2_velocity", "y1_acceleration", "y2_acceleration"])
+    assert C == {
+        (0, 0): 1,
+        (0, 1): 5.0,
+        (1, 2): 1,
+        (1, 3): -5.0,
+        (2, 0): -4.0,
+        (2, 1): -10.0,
+        (3, 0): -4.0,
+        (3, 1): 10.0,
+    }
+    assert (D, system.unit_of("y2_acceleration")) == ({}, "m/s^2")
+    halves = StateSpace([*body, *folded([point])])
+    C, _ = halves.rows_of(["y+", "y-"])
+    assert C == {(0, 0): 1, (1, 1): 5.0}
 
 
 def test_fill_writes_stacks():

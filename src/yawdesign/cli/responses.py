@@ -1,4 +1,4 @@
-"""Commands that show the bogie in motion: runs over a track, and its modes."""
+"""Commands that show the vehicle in motion: runs over a track, and its modes."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -36,11 +36,14 @@ def simulate(
     seed: Annotated[int | None, typer.Option(min=0, help="Of a spectrum's random phases; 0.")] = None,
     csv: Annotated[str | None, typer.Option(help="Write the time histories as text.")] = None,
     npz: Annotated[str | None, typer.Option(help="Write the time histories as NumPy arrays.")] = None,
-    plot: Annotated[str | None, typer.Option(help="Draw the frame's motion to a .png, .pdf or .svg file.")] = None,
-    response: Annotated[str | None, typer.Option(help="What --plot draws; y_b.")] = None,
+    plot: Annotated[str | None, typer.Option(help="Draw responses to a .png, .pdf or .svg file.")] = None,
+    response: Annotated[
+        list[str] | None,
+        typer.Option(help="What --plot draws; y_b, or the car body's accelerations. May be repeated, in one unit."),
+    ] = None,
     force: Force = False,
 ) -> None:
-    """Run the bogie over a track: RMS, peaks, whether amplitudes settle, and what its yaw damper has to do."""
+    """Run the vehicle over a track: RMS, peaks, whether amplitudes settle, and what its yaw damper has to do."""
     with mistakes_told():
         from yawdesign.output import histories, pictures, plots
         from yawdesign.output.targets import Target, checked_targets
@@ -69,7 +72,7 @@ def simulate(
                 progress=progress,
             )
         if to_plot:
-            pictures.write_picture(plots.plot(result, response=response or "y_b"), to_plot, replace=force)
+            pictures.write_picture(plots.plot(result, response=response or None), to_plot, replace=force)
         if to_csv:
             histories.write_csv(result, to_csv, replace=force)
         if to_npz:
@@ -78,19 +81,21 @@ def simulate(
     raise ended(checked=result.checked, feasible=result.settles)
 
 
-def _check_response(problem: "Problem", response: str | None, plot: str | None) -> None:
+def _check_response(problem: "Problem", response: list[str] | None, plot: str | None) -> None:
     from yawdesign.problem import ProblemError
+    from yawdesign.problem.diagnostics import Mistakes
     from yawdesign.problem.table import as_choice
     from yawdesign.response.run.simulate import response_names
 
-    if response is None:
+    if not response:
         return
     if not plot:
         raise ProblemError("--response: chooses what --plot draws: give --plot too")
-    try:
-        as_choice(response, response_names(problem))
-    except ProblemError as error:
-        raise error.under("--response") from None
+    mistakes = Mistakes()
+    for name in response:
+        with mistakes.under("--response"):
+            as_choice(name, response_names(problem))
+    mistakes.report()
 
 
 def modes(

@@ -30,9 +30,18 @@ class Space:
     ----------
     problem : Problem
         Its design variables span the space.
+    pairs : int, optional
+        So many pairs of roots, those of the least margins, are left out of the margin that is to be largest.
+    floor : float, optional
+        What the margin of all roots must reach [1/s], [-].
+    anchor : mapping, optional
+        Values of the variables of a design that reaches it.
     """
 
     problem: Problem
+    pairs: int = 0
+    floor: float = -np.inf
+    anchor: Mapping[str, float] | None = None
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -43,7 +52,7 @@ class Space:
     @cached_property
     def fixed(self) -> Values:
         """Return the parameters that stay, C_s among them if it is given."""
-        p = self.problem.bogie.parameters()
+        p = self.problem.parameters()
         return {name: float(value) for name, value in p.items() if name not in self.names}
 
     @property
@@ -74,7 +83,7 @@ class Space:
     @cached_property
     def worst_margin(self) -> WorstMargin:
         """The margin that is to be largest."""
-        return WorstMargin(self.conditions, self.objective, self.names)
+        return WorstMargin(self.conditions, self.objective, self.names, self.pairs, self.floor)
 
     def bounds(self, name: str) -> tuple[float, float]:
         """Return lower and upper bound of a variable in SI, as written."""
@@ -111,9 +120,11 @@ class Space:
     @cached_property
     def anchors(self) -> Float:
         """Points of the cube that any search must know: the gentlest, and the design as written if it lies inside."""
-        points, p = [self.gentlest], {name: float(v) for name, v in self.problem.bogie.parameters().items()}
+        points, p = [self.gentlest], {name: float(v) for name, v in self.problem.parameters().items()}
         if all(name in p and self.bounds(name)[0] <= p[name] <= self.bounds(name)[1] for name in self.names):
             points.append(self.coordinates(p))
+        if self.anchor is not None:
+            points.append(self.coordinates(self.anchor))
         return np.array(points).T
 
     def feasible(self, values: Values) -> Bools:

@@ -9,16 +9,14 @@ from yawdesign.damper.curving import curving_limit, rotational_resistance
 from yawdesign.damper.decision import decide
 from yawdesign.damper.single_bogie import CONICITIES, SingleBogie, partings
 from yawdesign.damper.status import Status
-from yawdesign.hunting.boundary import boundary, boundary_slope, parameter_names
 from yawdesign.hunting.critical_damping import CriticalDamping, CriticalValue, Interval, critical_damping
-from yawdesign.hunting.routh import TIME_UNIT, count_unstable
+from yawdesign.hunting.routh import count_unstable
 from yawdesign.hunting.scope import scope
+from yawdesign.hunting.sensitivity import sensitivity
 from yawdesign.hunting.verdict import stability_at
 from yawdesign.problem import Curve, Problem
 from yawdesign.problem.result import Result
 from yawdesign.vehicle.vehicle import Vehicle
-
-ON_BOUNDARY = 1e-10  # largest residual of the scaled equations of the boundary with which a value has derivatives
 
 
 @dataclass(frozen=True)
@@ -189,19 +187,5 @@ def _sensitivity(vehicles: Sequence[Vehicle], found: Sequence[CriticalDamping], 
     for sets, vehicle in zip(found, vehicles, strict=True):
         for x in sets.critical:
             if x.C_s == C_sl:
-                return sensitivity(vehicle, x)
+                return sensitivity(vehicle, x.C_s, x.omega)
     return {}
-
-
-def sensitivity(vehicle: Vehicle, x: CriticalValue) -> dict[str, float]:
-    """Return d ln C / d ln p [-] of a critical value for every parameter p and v, by implicit differentiation.
-
-    Empty if the derivative does not exist (two critical values that have just met) or fails its residual check.
-    """
-    names = parameter_names(vehicle.p)
-    p, z = [float(vehicle.p[name]) for name in names], [np.log(x.C_s), x.omega / TIME_UNIT]
-    residual = np.linalg.norm(np.array(boundary(vehicle.model, names)(z, p)))
-    slope = np.array(boundary_slope(vehicle.model, names)(z, p)).ravel()
-    if not (residual < ON_BOUNDARY and np.all(np.isfinite(slope))):
-        return {}
-    return {name: float(value * g) for name, value, g in zip(names, p, slope, strict=True)}

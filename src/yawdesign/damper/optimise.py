@@ -1,36 +1,36 @@
 """The design of largest margin that the curve allows: dense search, IPOPT, and a polish by verdicts."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from yawdesign.damper.capping import GIVEN_AWAY, CappingMode, at_design, capping_modes, name_of, sensitivity
 from yawdesign.damper.curving import excess
 from yawdesign.damper.design_space import Space, fraction, scale
 from yawdesign.damper.forward import ForwardDesign, design, forward_design, others_stable, resistance
+from yawdesign.damper.local_nlp import LocalImprover
 from yawdesign.damper.nlp import Improver
 from yawdesign.damper.search import distinct, refine, search
+from yawdesign.damper.second_route import AGREE, hurwitz_positive, margin_by_routh
 from yawdesign.damper.status import Status
-from yawdesign.hunting.arrays import Bools, Float
-from yawdesign.hunting.hurwitz import hurwitz_minors
-from yawdesign.hunting.routh import TIME_UNIT, damped_more, decays_faster
+from yawdesign.damper.worst_margin import WorstMargin
+from yawdesign.hunting.arrays import Float
+from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.verdict import Mode, Stability, stability_at
 from yawdesign.problem import Curve, Problem, ProblemError
 from yawdesign.problem.arguments import Progress
+from yawdesign.problem.conditions import Condition
 from yawdesign.problem.result import Result
 from yawdesign.problem.table import as_seed
-from yawdesign.vehicle.polynomials import trim
 from yawdesign.vehicle.vehicle import Vehicle
 
 APART = 1e-3  # how far starts of the NLP must be from a better one
 MOST_REFINED = 8  # points after each turn of the NLP
 TURNS = ((6, 1e-3), (2, 1e-5))  # number of starts of the NLP, radius of the refinement after it
-# How close the margins by two routes must be. Where two roots coalesce, as they do at many optima, an eigenvalue is
-# right to 1e-8 of its own modulus only; a hunting mode's is 10 ... 30 rad/s.
-AGREE = {"decay_rate": 2e-5, "damping_ratio": 1e-6}
-SECTIONS, LEVELS = 3, 1025  # of the margin by Routh's array: how often it is enclosed, and by how many levels
 MOST_SEARCHES = 9  # in five variables and more; what these miss, other seeds may find
+MOST_FACTORED = 30  # degree of polynomials; with that of a vehicle no start of the NLP of their factors converged
 ACTIVE = 1e-4  # a variable within this share of its range from a bound stands at the bound
 
 
@@ -90,6 +90,13 @@ class Optimum(Result):
         Roots that no design variable moves [1/s].
     modes : tuple of Mode
         All modes of the optimum under its worst condition.
+    next_margin : float or None
+        Where modes cap the margin that the variables hardly move (less than a fifth over their bounds): the worst
+        margin of all others, which is then the largest with at most 2 % of the largest margin given away [1/s], [-].
+    capped_by : str or None
+        Names of those modes, such as ``"car body sway"``.
+    capping_sensitivity : mapping
+        d ln margin / d ln p [-] of the first of them for every parameter p and the speed v, the largest first.
     requirements, cases : tuple
         What was required and reached, and the faults that were looked at: none.
     hurwitz_positive : bool
@@ -125,6 +132,9 @@ class Optimum(Result):
     checked: bool
     load: str | None
     forward: ForwardDesign
+    next_margin: float | None = None
+    capped_by: str | None = None
+    capping_sensitivity: Mapping[str, float] = field(default_factory=dict)
     requirements: tuple[Any, ...] = ()
     cases: tuple[Any, ...] = ()
 
@@ -160,8 +170,21 @@ def optimise(
         raise ProblemError("bogie.C_s is missing: give its value, or make it a design variable")
     if space.curve is not None and not space.feasible(space.values(space.gentlest)):
         return _nothing(space, space.curve)
+    x = _found(space, seed, options or {}, progress)
+    capping = capping_modes(space, x)
+    if capping:
+        # Numbers, and not x, go on: the curve's limit stays where it is.
+        least, values = float(np.squeeze(space.margins_at(x[:, None]))), space.values(x)
+        anchor = {name: float(values[name]) for name in space.names}
+        space = Space(problem, pairs=len(capping), floor=(1 - GIVEN_AWAY) * least, anchor=anchor)
+        x = _found(space, seed, options or {}, progress)
+    return _answer(space, x, capping)
+
+
+def _found(space: Space, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
+    """Return the best point of a design space."""
     found = np.concatenate([search(space, seed + k, progress) for k in range(_searches(space))], axis=1)
-    return _answer(space, _best(space, found, seed, options or {}, progress))
+    return _best(space, found, seed, options, progress)
 
 
 def _searches(space: Space) -> int:
@@ -171,7 +194,7 @@ def _searches(space: Space) -> int:
 
 def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
     """Return the best point after IPOPT and refinement in turn: each leaves the ridges on which the other stops."""
-    rng, margin, improver = np.random.default_rng(seed), space.margins_at(x), Improver(space, options)
+    rng, margin, improver = np.random.default_rng(seed), space.margins_at(x), _improver(space, options)
     order = distinct(x, margin, np.full(len(margin), APART))  # several searches find the same
     x, margin = x[:, order], margin[order]
     more = _searches(space)  # local optima multiply with the variables
@@ -187,14 +210,23 @@ def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progres
     return x[:, 0]
 
 
-def _answer(space: Space, x: Float) -> Optimum:
+def _improver(space: Space, options: Mapping[str, Any]) -> Improver | LocalImprover:
+    """Return the NLP of the whole polynomials, or that of models where coefficients of so high a degree say too little."""
+    movable = space.model.movable(space.names)
+    degrees = [len(p) - 1 for motion in space.model.motions if motion.name in movable for p in motion.coefficients]
+    return (LocalImprover if space.pairs or max(degrees) > MOST_FACTORED else Improver)(space, options)
+
+
+def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
     values = {name: float(np.squeeze(v)) for name, v in space.values(x).items()}
     vehicles = [space.model.at(condition.applied(values)) for condition in space.conditions]
     results = [stability_at(vehicle, space.names) for vehicle in vehicles]
     margin, worst = _worst(space, results)
-    second = _margin_by_routh(space, vehicles, margin)
+    second = margin_by_routh(space, vehicles, margin)
+    nexts = _next_margins(space, vehicles) if capping else ()
     stable = all(result.stable for result in results)
     agree = all(result.checked for result in results) and abs(second - margin) <= AGREE[space.objective]
+    agree = agree and (not capping or abs(nexts[0] - nexts[1]) <= AGREE[space.objective])
     status = (Status.OPTIMAL if stable else Status.UNSTABLE) if agree else Status.UNVERIFIED_OPTIMUM
     helpless = status == Status.UNSTABLE and not others_stable(vehicles)
     bounds = {name: _bound(space, name, values[name]) for name in space.names}
@@ -205,6 +237,7 @@ def _answer(space: Space, x: Float) -> Optimum:
         status,
         optimum={name: values.get(name) for name in _named(space)},
         margin=margin,
+        **_capped(space, vehicles[worst], capping, nexts),
         worst_condition=space.conditions[worst].described,
         active=_active(bounds, resisted, space.curve),
         message=Status.UNDAMPED.message if helpless else status.message,
@@ -213,10 +246,29 @@ def _answer(space: Space, x: Float) -> Optimum:
         bounds=bounds,
         fixed_modes=results[worst].fixed_modes,
         modes=results[worst].modes,
-        hurwitz_positive=all(_hurwitz_positive(vehicle) for vehicle in vehicles),
+        hurwitz_positive=all(hurwitz_positive(vehicle) for vehicle in vehicles),
         margin_polynomial=second,
         checked=agree,
     )
+
+
+def _next_margins(space: Space, vehicles: Sequence[Vehicle]) -> tuple[float, float]:
+    """Return the worst margin of all modes but those that cap it, by eigenvalues and by Routh's array."""
+    others = WorstMargin([Condition(())], space.objective, space.names, space.pairs)
+    margin = min(float(others.of(ParameterSets(space.model, vehicle.p, 1))[0]) for vehicle in vehicles)
+    return margin, margin_by_routh(space, vehicles, margin, space.pairs)
+
+
+def _capped(space: Space, vehicle: Vehicle, capping: Sequence[CappingMode], nexts: Sequence[float]) -> dict[str, Any]:
+    """Return what is told of the modes that cap the margin, under its worst condition."""
+    if not capping:
+        return {}
+    modes = [at_design(vehicle, mode, space.objective) for mode in capping]
+    return {
+        "next_margin": nexts[0],
+        "capped_by": ", ".join(dict.fromkeys(name_of(vehicle, mode) for mode in modes)),
+        "capping_sensitivity": sensitivity(vehicle, modes[0], space.objective),
+    }
 
 
 def _nothing(space: Space, curve: Curve) -> Optimum:
@@ -252,7 +304,7 @@ def _optimum(space: Space, forward: ForwardDesign, status: Status, **own: Any) -
         margin_before=_margin_before(space),
         status=status,
         C_su=forward.C_su,
-        before={name: space.problem.bogie.parameters().get(name) for name in space.names},
+        before={name: space.problem.parameters().get(name) for name in space.names},
         load=forward.load,
         forward=forward,
         **own,
@@ -271,28 +323,6 @@ def _worst(space: Space, results: Sequence[Stability]) -> tuple[float, int]:
     return min(margins), margins.index(min(margins))
 
 
-def _margin_by_routh(space: Space, vehicles: Sequence[Vehicle], margin: float) -> float:
-    """Return the margin by Routh's array, looked for around the one by eigenvalues; NaN if it is not there."""
-    movable, ratio = space.model.movable(space.names), space.objective == "damping_ratio"
-    exceeds = damped_more if ratio else decays_faster
-    polynomials = [m.polynomial(vehicle.C_s) for vehicle in vehicles for m in vehicle.motions if m.name in movable]
-
-    def exceeded(level: Float) -> Bools:
-        return np.asarray(np.all([np.broadcast_to(exceeds(p, level), level.shape) for p in polynomials], axis=0))
-
-    if ratio and margin <= 0:  # the sector's scheme ends at zero
-        return float("nan") if exceeded(np.zeros(1)) else margin
-    low, high = margin - 100 * AGREE[space.objective], margin + 100 * AGREE[space.objective]
-    for _ in range(SECTIONS):
-        levels = np.linspace(max(low, 0) if ratio else low, high, LEVELS)
-        passed = exceeded(levels)
-        if not passed[0] or passed.all():
-            return float("nan")
-        end = int(np.argmin(passed))  # the first that is not exceeded
-        low, high = levels[end - 1], levels[end]
-    return float(low)
-
-
 def _bound(space: Space, name: str, value: float) -> Bound:
     low, high = space.bounds(name)
     return Bound(value, low, high, fraction(low, high, value, scale(name)))
@@ -304,9 +334,3 @@ def _active(bounds: Mapping[str, Bound], resistance: float | None, curve: Curve 
     if resistance is not None and curve is not None:
         ends.append(("rotational_resistance", 1 - resistance / curve.limit))
     return tuple(name for name, gap in ends if gap < ACTIVE)
-
-
-def _hurwitz_positive(vehicle: Vehicle) -> bool:
-    chi = vehicle.paper_coefficients(TIME_UNIT)
-    chi = trim(chi[::-1])[::-1]  # a damper without damping lowers the degree
-    return all(sign > 0 for sign in hurwitz_minors(chi)[0])

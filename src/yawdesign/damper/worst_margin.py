@@ -34,12 +34,25 @@ class WorstMargin:
         Which margin: [1/s] or [-].
     variables : sequence of str
         Design variables; they decide which motions count.
+    pairs : int, optional
+        So many pairs of roots, those of the least margins, are left out under each condition.
+    floor : float, optional
+        What the margin of all roots must reach; below it the margin of the others counts as minus infinity.
     """
 
-    def __init__(self, conditions: Sequence[Condition], objective: str, variables: Sequence[str]) -> None:
+    def __init__(
+        self,
+        conditions: Sequence[Condition],
+        objective: str,
+        variables: Sequence[str],
+        pairs: int = 0,
+        floor: float = -np.inf,
+    ) -> None:
         self.conditions = tuple(conditions)
         self.objective = objective
         self.variables = tuple(variables)
+        self.pairs = pairs
+        self.floor = floor
         self._worst_of = np.zeros(len(self.conditions), dtype=int)  # how many designs have each as their worst
 
     @property
@@ -73,18 +86,25 @@ class WorstMargin:
     def _verdicts(self, sets: ParameterSets, level: Float, chosen: Sequence[int] | Index) -> tuple[Bools, Bools]:
         """Return where margins exceed a level under some conditions, and where that is sure; shape (conditions, n)."""
         here, shape = _under(sets, [self.conditions[k] for k in chosen]), (len(chosen), sets.size)
-        yes, sure = exceeds(here, self.objective, np.tile(level, len(chosen)), self.variables)
+        yes, sure = exceeds(here, self.objective, np.tile(level, len(chosen)), self.variables, self.pairs)
+        if np.isfinite(self.floor) and yes.any():
+            passed, yes, sure = np.flatnonzero(yes), yes.copy(), sure.copy()
+            yes[passed], certain = exceeds(here.part(passed), self.objective, self.floor, self.variables)
+            sure[passed] &= certain
         return yes.reshape(shape), sure.reshape(shape)
+
+    def _margins(self, sets: ParameterSets) -> Float:
+        return eigenvalue_margins(sets, self.objective, self.variables, self.pairs, self.floor)
 
     def under_each(self, sets: ParameterSets) -> Float:
         """Return the margins under every condition, shape (conditions, n). Parameter as in `exceeds`."""
         here = _under(sets, self.conditions)
-        return eigenvalue_margins(here, self.objective, self.variables).reshape(len(self.conditions), sets.size)
+        return self._margins(here).reshape(len(self.conditions), sets.size)
 
     def of(self, sets: ParameterSets) -> Float:
         """Return the margin. Parameter as in `exceeds`."""
         first, *others = self._order
-        worst = eigenvalue_margins(sets.under(self.conditions[first]), self.objective, self.variables)
+        worst = self._margins(sets.under(self.conditions[first]))
         which = np.full(sets.size, first)
         for place, part in _by_zeros(sets) if others else ():
             value = self._where_less(part, worst[place], others)
@@ -100,7 +120,7 @@ class WorstMargin:
         yes, sure = self._verdicts(sets, level, chosen)
         open_ = np.nonzero(~(yes & sure))
         here = _under(sets, [self.conditions[k] for k in chosen]).part(np.ravel_multi_index(open_, value.shape))
-        value[open_] = eigenvalue_margins(here, self.objective, self.variables)
+        value[open_] = self._margins(here)
         return value
 
 
@@ -134,14 +154,16 @@ def _patterns(conditions: Sequence[Bools], size: int) -> Iterator[tuple[Index, l
         yield np.flatnonzero(code == value), [k for k in range(len(conditions)) if value >> k & 1]
 
 
-def eigenvalue_margins(sets: ParameterSets, objective: str, variables: Sequence[str]) -> Float:
+def eigenvalue_margins(
+    sets: ParameterSets, objective: str, variables: Sequence[str], pairs: int = 0, floor: float = -np.inf
+) -> Float:
     """Return margins from eigenvalues, those of rigid joints where a damper is next to none.
 
     Parameters
     ----------
     sets : ParameterSets
         With ``C_s`` and ``v``.
-    objective, variables
+    objective, variables, pairs, floor
         As in `WorstMargin`.
     """
     out, joints = np.empty(sets.size), sets.model.joints
@@ -150,6 +172,8 @@ def eigenvalue_margins(sets: ParameterSets, objective: str, variables: Sequence[
     chosen = [motion for motion in sets.model.motions if motion.name in movable]
     for place, stiff in _patterns(rigid, sets.size):
         vehicle = sets.part(place).replace(**{[*joints.values()][k]: np.inf for k in stiff}).vehicle
-        margins = [MARGINS[objective](motion_eigenvalues(vehicle, motion)) for motion in chosen]
-        out[place] = np.min([np.broadcast_to(x, len(place)) for x in margins], axis=0)
+        roots = [motion_eigenvalues(vehicle, motion) for motion in chosen]
+        every = np.concatenate([np.broadcast_to(s, (len(place), s.shape[-1])) for s in roots], axis=1)
+        margins = np.partition(MARGINS[objective](every[..., None]), (0, 2 * pairs), axis=1)
+        out[place] = np.where(margins[:, 0] < floor, -np.inf, margins[:, 2 * pairs])
     return out

@@ -20,7 +20,7 @@ from yawdesign.hunting.routh import TIME_UNIT, sector_column
 from yawdesign.hunting.routh import routh_column as generic_column
 from yawdesign.problem import ProblemError
 from yawdesign.problem.running import CURVE
-from yawdesign.vehicle.elements import Mass, Maxwell
+from yawdesign.vehicle.elements import Dashpot, Law, Mass, Maxwell
 from yawdesign.vehicle.polynomials import Polynomial, product, scale_variable, shift, trim
 from yawdesign.vehicle.vehicle import Vehicle
 
@@ -61,16 +61,29 @@ def characteristic_polynomial(f: SymbolicFunction) -> None:
     """Characteristic polynomial: of the coupled motion, scaled, and the paper's eq. (9) as sign and logarithm."""
     vehicle = f.vehicle()
     core = scale_variable(vehicle.coupled.polynomial(vehicle.C_s), TIME_UNIT)
-    A, B = (scale_variable(part, TIME_UNIT) for part in vehicle.coupled.coefficients)
-    unit = _core_unit(vehicle)
-    f.output("core", unit, f"coefficients of A + C_s B {IN_SCALE}, lowest power first", core)
-    f.output("A", unit, f"coefficients of A {IN_SCALE}, lowest power first", A)
-    f.output("B", per(unit, "N·s/m"), f"coefficients of B {IN_SCALE}, lowest power first", B)
-    chi = vehicle.paper_coefficients(TIME_UNIT)
+    parts = {"ABC"[k]: scale_variable(part, TIME_UNIT) for k, part in enumerate(vehicle.coupled.coefficients)}
+    unit, whole = _core_unit(vehicle), " + ".join(["A", "C_s B", "C_s^2 C"][: len(parts)])
+    f.output("core", unit, f"coefficients of {whole} {IN_SCALE}, lowest power first", core)
+    for name, part in parts.items():
+        f.output(name, unit, f"coefficients of {name} {IN_SCALE}, lowest power first", part)
+        unit = per(unit, "N·s/m")
+    chi = _whole_polynomial(f.parametric, vehicle)
     unscale = [(len(chi) - 1 - i) * math.log10(TIME_UNIT) for i in range(len(chi))]
     logarithms = [ca.log10(ca.fabs(x)) - y for x, y in zip(chi, unscale, strict=True)]
-    f.output("chi_sign", "-", "signs of chi_0, chi_1, ... of eq. (9), highest power first", [*map(ca.sign, chi)])
-    f.output("chi_log10", "-", "log10 |chi_0|, log10 |chi_1|, ... of eq. (9) in SI units", logarithms)
+    if f.parametric.as_in_the_paper:
+        f.output("chi_sign", "-", "signs of chi_0, chi_1, ... of eq. (9), highest power first", [*map(ca.sign, chi)])
+        f.output("chi_log10", "-", "log10 |chi_0|, log10 |chi_1|, ... of eq. (9) in SI units", logarithms)
+        return
+    f.meaning = "Characteristic polynomial: of the coupled motion, scaled, and of all motions as sign and logarithm."
+    f.output("whole_sign", "-", "signs of the coefficients of all motions, highest power first", [*map(ca.sign, chi)])
+    f.output("whole_log10", "-", "log10 of the magnitudes of these coefficients in SI units", logarithms)
+
+
+def _whole_polynomial(parametric: ParametricModel, vehicle: Vehicle) -> Polynomial:
+    """Return the polynomial of all motions in s / (100 rad/s), highest power first: of the paper's bogie eq. (9)."""
+    if parametric.as_in_the_paper:
+        return vehicle.paper_coefficients(TIME_UNIT)
+    return tuple(reversed(scale_variable(vehicle.polynomial, TIME_UNIT)))
 
 
 def routh_column(f: SymbolicFunction) -> None:
@@ -82,7 +95,10 @@ def routh_column(f: SymbolicFunction) -> None:
 
 def hurwitz_minors(f: SymbolicFunction) -> None:
     """Hurwitz minors of eq. (10): stable if all signs are +1, but for roots on the axis, which rounding hides."""
-    chi = f.vehicle().paper_coefficients(TIME_UNIT)
+    chi = _whole_polynomial(f.parametric, f.vehicle())
+    if not f.parametric.as_in_the_paper:
+        f.meaning = "Hurwitz minors of the polynomial of all motions: stable if all signs are +1, but for roots on the "
+        f.meaning += "axis, which rounding hides."
     signs, logarithms = generic_minors(tuple(reversed(_trimmed(tuple(reversed(chi))))), functions=ca)
     f.output("sign", "-", "signs of Delta_1, Delta_2, ...", signs)
     f.output("log10", "-", "log10 |Delta_1|, log10 |Delta_2|, ... in SI units", logarithms)
@@ -90,7 +106,7 @@ def hurwitz_minors(f: SymbolicFunction) -> None:
 
 def critical_damping(f: SymbolicFunction) -> None:
     """Critical yaw damping that Newton's method reaches from a start, with its gradient. Check the residual."""
-    model, names = f.parametric.model, f.parametric.bogie
+    model, names = f.parametric.model, f.parametric.names
     values = f.parameters(names)
     p = ca.vertcat(*values.values())
     C_s, omega = _start_of_critical_damping(f.parametric)
@@ -119,7 +135,7 @@ def _start_of_critical_damping(parametric: ParametricModel) -> tuple[float, floa
 
 def critical_equations(f: SymbolicFunction) -> None:
     """Equations of the stability boundary: both are zero where C_sl is critical and omega its frequency."""
-    model, names = f.parametric.model, f.parametric.bogie
+    model, names = f.parametric.model, f.parametric.names
     p = ca.vertcat(*f.parameters(names).values())
     start = _start_of_critical_damping(f.parametric)
     C_sl = f.input("C_sl", "N·s/m", "damping of the pair of yaw dampers, positive", start[0])
@@ -195,10 +211,10 @@ def _shifted(core: Polynomial, sigma: Any) -> Polynomial:
 
 def dynamic_stiffness(f: SymbolicFunction) -> None:
     """Dynamic stiffness Z(j omega) of the pair of yaw dampers with their joints, force over displacement."""
-    p = f.parameters(("K_ds", "C_s"))
+    p = f.parameters([name for name in ("K_ds", "C_s") if name in f.parametric.values])
     omega = f.input("omega", "rad/s", "angular frequency", 20.0)
-    law = Maxwell(p["K_ds"], p["C_s"])
-    (_, c), (_, lag) = law.numerator, law.denominator
+    law: Law = Maxwell(p["K_ds"], p["C_s"]) if "K_ds" in p else Dashpot(p["C_s"])
+    (_, c), (_, lag) = law.numerator, (*law.denominator, 0)[:2]
     real = c * omega * lag * omega / (1 + (lag * omega) ** 2)
     imaginary = c * omega / (1 + (lag * omega) ** 2)
     f.output("Z_re", "N/m", "real part of Z, the storage stiffness", real)

@@ -10,6 +10,8 @@ from yawdesign.exports.symbolic_function import Port
 from yawdesign.exports.templates import EXAMPLE, HEADER, MAKEFILE, SELF_TEST
 from yawdesign.problem.characters import printable
 
+LARGE = 2_000_000  # characters of a C source with functions so long that GCC optimises them for many minutes
+
 
 def ascii_text(text: str) -> str:
     """Return a text in printable ASCII on one line, which neither begins nor ends a comment."""
@@ -100,6 +102,6 @@ def example_source(name: str, f: Documented, names: ExportNames) -> str:
     return Template(EXAMPLE).substitute(name=name, s=names.symbol(name), first=first, header=names.header)
 
 
-def makefile(names: ExportNames) -> str:
-    """Return the Makefile."""
-    return Template(MAKEFILE).substitute(prefix=names.prefix)
+def makefile(names: ExportNames, source: str) -> str:
+    """Return the Makefile for a C source."""
+    return Template(MAKEFILE).substitute(prefix=names.prefix, optimised="-O2" if len(source) < LARGE else "-O0")

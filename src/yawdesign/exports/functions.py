@@ -111,8 +111,8 @@ def functions(
     problem : Problem
         Its values are baked into the functions where a parameter is no input.
     inputs : collection of str, optional
-        Parameters that stay inputs: symbols of Table I, ``v``, and R, L, l, V_r and limit of the curve. All of them if
-        not given. A text is split at its commas.
+        Parameters that stay inputs: those of bogie and car body, ``v``, and R, L, l, V_r and limit of the curve. All
+        of them if not given. A text is split at its commas.
     only : collection of str, optional
         Names of the functions; all if not given (without a curve, or with an axle load that is 0 and no input, all but
         ``rotational_resistance``).
@@ -166,7 +166,7 @@ def _documented(name: str, parametric: ParametricModel) -> Documented:
     build(f)
     return Documented(
         function=f.function(name),
-        meaning=(build.__doc__ or "").strip(),
+        meaning=f.meaning or (build.__doc__ or "").strip(),
         inputs=tuple(port for port, _ in f.inputs),
         outputs=tuple(port for port, _ in f.outputs),
         baked=f.baked,

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from yawdesign.exports import described_vehicle
 from yawdesign.exports.c_files import signature, vector_sizes
 from yawdesign.exports.file_contents import FileContents
 from yawdesign.exports.folder import GENERATOR, MANIFEST, write_text
@@ -30,6 +31,7 @@ def write_manifest(contents: FileContents, files: Sequence[str], notes: Sequence
         "title": contents.problem.title,
         "kind": contents.problem.bogie.kind,
         "equations": contents.problem.equations,
+        **described_vehicle.described(contents.problem),
         "load": None if contents.problem.curve is None else contents.problem.curve.load,
         "matrices": "column by column, in C, in the self-tests and in lists of units",
         "c_types": C_TYPES,

@@ -25,6 +25,6 @@ def write_mat(contents: FileContents, folder: Path) -> list[str]:
     for kind in ("state", "input", "output"):
         content[kind + "_names"] = np.array(getattr(model, kind + "s"), dtype=object)
         content[kind + "_units"] = np.array(getattr(model, kind + "_units"), dtype=object)
-    content["parameters"] = {name: float(x) for name, x in contents.problem.bogie.parameters().items()}
+    content["parameters"] = {name: float(x) for name, x in contents.problem.parameters().items()}
     savemat(folder / STATE_SPACE, content, oned_as="column")
     return [STATE_SPACE]

@@ -7,7 +7,6 @@ from functools import cached_property
 from yawdesign.hunting.critical_damping import CriticalValue, critical_damping
 from yawdesign.problem import PARAMETERS, Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
-from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.running import CURVE
 from yawdesign.problem.table import key_of
 from yawdesign.vehicle.vehicle import Model, Vehicle
@@ -24,7 +23,7 @@ class ParametricModel:
     model : Model
         Which equations.
     values : mapping name -> float or None
-        Bogie, speed ``v`` and curve in SI; None where the problem has no single value.
+        Vehicle, speed ``v`` and curve in SI; None where the problem has no single value.
     free : tuple of str
         Names that stay inputs, in the order of `values`.
     load : str or None
@@ -42,8 +41,8 @@ class ParametricModel:
     @classmethod
     def of(cls, problem: Problem, free: Collection[str] | None) -> "ParametricModel":
         """Return the model of a problem with some free parameters, or, if none are named, with all of them free."""
-        p, speeds = problem.bogie.parameters(), problem.speeds
-        values: dict[str, float | None] = {key: p.get(key) for key in parameter_keys(problem.bogie.kind)}
+        p, speeds = problem.parameters(), problem.speeds
+        values: dict[str, float | None] = {key: p.get(key) for key in problem.keys}
         values["v"] = speeds[0] if len(speeds) == 1 else None
         values |= {key: getattr(problem.curve, key) for key in CURVE if problem.curve is not None}
         values = {key: None if value is None else float(value) for key, value in values.items()}
@@ -58,9 +57,14 @@ class ParametricModel:
         )
 
     @property
-    def bogie(self) -> tuple[str, ...]:
+    def names(self) -> tuple[str, ...]:
         """The parameters on which the characteristic polynomial depends, beside C_s."""
         return tuple(key for key in self.values if key not in CURVE and key != "C_s")
+
+    @property
+    def as_in_the_paper(self) -> bool:
+        """Whether it is the paper's bogie, whose polynomial is eq. (9): no car body, nothing added, nothing rigid."""
+        return self.model == Model(self.model.kind, self.model.equations)
 
     @property
     def resists(self) -> bool:
@@ -79,7 +83,7 @@ class ParametricModel:
     def example(self) -> Vehicle:
         """The vehicle of these values."""
         values = self.examples
-        return self.model.at({name: values[name] for name in (*self.bogie, "C_s")})
+        return self.model.at({name: values[name] for name in (*self.names, "C_s")})
 
     @cached_property
     def critical(self) -> tuple[CriticalValue, ...]:

@@ -6,6 +6,7 @@ from typing import Any
 
 import casadi as ca
 
+from yawdesign.exports.described_vehicle import short_name
 from yawdesign.exports.parametric_model import ParametricModel
 from yawdesign.exports.symbolic_function import SymbolicFunction
 from yawdesign.hunting.arrays import Float
@@ -18,16 +19,17 @@ from yawdesign.vehicle.state_space import Entries, StateSpace
 
 @dataclass(frozen=True, repr=False, eq=False)
 class StateSpaceModel(Result):
-    """The linear model x' = A x + B u, y = C x + D u of a bogie on its track.
+    """The linear model x' = A x + B u, y = C x + D u of a vehicle on its track.
 
     Parameters
     ----------
     A, B, C, D : ndarray
-        Matrices, SI: 25 states (15 without motors), 4 inputs.
+        Matrices, SI: 25 states (15 without motors), 4 inputs; with a car body 56 (36), 8 inputs.
     states, inputs, outputs : tuple of str
         Names: coordinates ``y_b``, their velocities ``y_b_velocity``, the dampers' strokes ``yaw_damper_stroke``, ...;
         ``alignment_1``, ``cross_level_1``, ...; coordinates, velocities, ``yaw_damper_pair_force`` and
-        ``yaw_damper_displacement``. They are those of `yawdesign.simulate`. The names before, ``v_y_b``, ``z_1``,
+        ``yaw_damper_displacement``; with a car body ``y_w12``, ``alignment_12``, ``yaw_damper_pair_force_1``, the
+        leading bogie (or wheelset) first. They are those of `yawdesign.simulate`. The names before, ``v_y_b``, ``z_1``,
         ``F_s`` and ``u_s``, are found by ``index`` until the next version.
     state_units, input_units, output_units : tuple of str
         SI units in the same order.
@@ -35,6 +37,8 @@ class StateSpaceModel(Result):
         Damping of the pair of yaw dampers [N s/m] and speed [m/s] to which this belongs.
     title : str
         Title of the problem.
+    name : str
+        ``bogie``, or ``vehicle`` with a car body.
     """
 
     A: Float
@@ -50,6 +54,7 @@ class StateSpaceModel(Result):
     C_s: float
     speed: float
     title: str
+    name: str
 
     def to_control(self) -> Any:
         """Return a `control.StateSpace` of python-control with named states, inputs and outputs."""
@@ -59,7 +64,7 @@ class StateSpaceModel(Result):
             text = "python-control is not installed: pip install 'yawdesign[control]'"
             raise ProblemError(text) from None
         labels = {"states": list(self.states), "inputs": list(self.inputs), "outputs": list(self.outputs)}
-        return control.ss(self.A, self.B, self.C, self.D, name="bogie", **labels)
+        return control.ss(self.A, self.B, self.C, self.D, name=self.name, **labels)
 
     def __repr__(self) -> str:
         lines = [
@@ -73,7 +78,7 @@ class StateSpaceModel(Result):
 
 
 def state_space(problem: Problem) -> StateSpaceModel:
-    """Return the linear model of a problem's bogie as matrices, moved by the track.
+    """Return the linear model of a problem's vehicle as matrices, moved by the track.
 
     Parameters
     ----------
@@ -106,6 +111,7 @@ def state_space(problem: Problem) -> StateSpaceModel:
         C_s=vehicle.C_s,
         speed=vehicle.v,
         title=problem.title,
+        name=short_name(vehicle.model),
     )
 
 

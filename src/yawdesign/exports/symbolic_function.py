@@ -55,10 +55,13 @@ class SymbolicFunction:
         Says which parameters are symbols and which are numbers.
     symbols : type
         `casadi.SX`, or `casadi.MX` for a function with a rootfinder in it.
+    meaning : str, optional
+        What it computes, where that is not what its builder says.
     """
 
     parametric: ParametricModel
     symbols: Any = ca.SX
+    meaning: str = ""
     inputs: list[tuple[Port, Any]] = field(default_factory=list)
     outputs: list[tuple[Port, Any]] = field(default_factory=list)
     baked: dict[str, float] = field(default_factory=dict)
@@ -84,7 +87,7 @@ class SymbolicFunction:
 
     def vehicle(self) -> Vehicle:
         """Return the vehicle of these symbols and numbers, all of which become known to the function."""
-        return self.parametric.model.at(self.parameters((*self.parametric.bogie, "C_s")))
+        return self.parametric.model.at(self.parameters((*self.parametric.names, "C_s")))
 
     def input(self, name: str, unit: str, meaning: str, *value: float) -> Any:
         """Add an input, a column with the length of the value, and return its symbol."""

@@ -154,7 +154,7 @@ int main(int argc, char **argv) {
 MAKEFILE = """\
 # make: the self-test and the example; make check: run the self-test; make library: for casadi.external and others;
 # make octave: the functions for GNU Octave
-CFLAGS = -std=c99 -O2 -Wall
+CFLAGS = -std=c99 $optimised -Wall
 LDLIBS = -lm
 
 all: selftest example

@@ -6,6 +6,7 @@ from os import PathLike
 from pathlib import Path
 
 from yawdesign.exports import c_files
+from yawdesign.exports.described_vehicle import in_words, short_name
 from yawdesign.exports.file_contents import PREFIX, ExportNames, FileContents, Unavailable
 from yawdesign.exports.fmu.archive import write_fmu
 from yawdesign.exports.folder import check_place, exported_folder, write_text
@@ -15,8 +16,7 @@ from yawdesign.exports.matlab import write_mat
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result
-
-FMU = "bogie.fmu"
+from yawdesign.vehicle.vehicle import Model
 
 
 @dataclass(frozen=True, repr=False)
@@ -52,28 +52,32 @@ def write_c(contents: FileContents, folder: Path) -> list[str]:
     """Write C source and header of all functions, a self-test, an example and a Makefile."""
     names = contents.names
     source = c_source(names.prefix, {names.symbol(name): f.function for name, f in contents.functions.items()})
-    title = f"{contents.problem.title or 'Bogie'} ({contents.problem.bogie.kind}, {contents.problem.equations})"
-    about = f"{title}: functions written by yawdesign {versions()['yawdesign']} with CasADi {versions()['casadi']}"
+    problem = contents.problem
+    kind = ", ".join((problem.bogie.kind, problem.equations, *in_words(problem)))
+    title = problem.title or short_name(Model.of(problem)).capitalize()
+    by = "yawdesign {yawdesign} with CasADi {casadi}".format(**versions())
+    about = f"{title} ({kind}): functions written by {by}"
     chosen = "critical_damping" if "critical_damping" in contents.functions else next(iter(contents.functions))
     texts = {
         names.source: source,
         names.header: c_files.header(contents.functions, about, names),
         "selftest.c": c_files.self_test_source({name: test for name, test in contents.tests.items() if test}, names),
         "example.c": c_files.example_source(chosen, contents.functions[chosen], names),
-        "Makefile": c_files.makefile(names),
+        "Makefile": c_files.makefile(names, source),
     }
     return [write_text(folder / name, text) for name, text in texts.items()]
 
 
 def write_fmu_file(contents: FileContents, folder: Path) -> list[str]:
     """Write the linear motion as an FMU, which has all parameters whatever stays an input of the functions."""
+    name = f"{short_name(Model.of(contents.problem))}.fmu"
     try:
-        fmu = write_fmu(contents.problem, folder / FMU)
+        fmu = write_fmu(contents.problem, folder / name)
     except ProblemError as error:
-        raise Unavailable(f"{FMU} left out: {error}") from None
+        raise Unavailable(f"{name} left out: {error}") from None
     if fmu.platform is None:
-        raise Unavailable(f"{FMU}: {fmu.message}", (FMU,))
-    return [FMU]
+        raise Unavailable(f"{name}: {fmu.message}", (name,))
+    return [name]
 
 
 FORMATS: Mapping[str, Callable[[FileContents, Path], list[str]]] = {

@@ -147,7 +147,9 @@ def _acts_on(element: Single) -> Iterable[str]:
             return (element.coordinate,)
         case WheelRailContact():
             return (element.y, element.phi)
-    return element.force
+        case Link():
+            return element.force
+    return ()
 
 
 def _stiffness(element: Single, s: Complex) -> Iterable[tuple[tuple[str, str], Any, Any]]:

@@ -23,8 +23,8 @@ from yawdesign.problem.cases import Case
 from yawdesign.problem.conditions import Condition, conditions
 from yawdesign.problem.result import Result
 from yawdesign.vehicle.elements import Link, parted
-from yawdesign.vehicle.motions import BOGIES
 from yawdesign.vehicle.polynomials import Polynomial
+from yawdesign.vehicle.signals import BOGIES, ENDS
 from yawdesign.vehicle.vehicle import Vehicle
 
 EXACT = 1e-9  # largest backward error with which an eigenvalue counts as a root of the characteristic polynomial
@@ -250,5 +250,14 @@ def _between_pieces(vehicle: Vehicle) -> dict[str, tuple[complex, ...]]:
     """Return the roots -K/c of equal dampers that work against each other: one link stands for them in the model."""
     links = [e for e in vehicle.physical if isinstance(e, Link) and e.pieces > 1]
     laws = [(*parted(link.name), law) for link in links for law in link.maxwell if law.c]
-    names = {end: f", {BOGIES[end]}" if end else "" for _, end, _ in laws}
-    return {f"{name.strip()}s against each other{names[end]}": (complex(-law.K / law.c),) for name, end, law in laws}
+    two = vehicle.model.has_car_body
+    return {
+        ", ".join((f"{name.strip()}s against each other", *_place(end, two))): (complex(-law.K / law.c),)
+        for name, end, law in laws
+    }
+
+
+def _place(end: str, two_bogies: bool) -> list[str]:
+    """Return in words which bogie and which end of it the number behind a name means."""
+    bogie, inside = (end[:1], end[1:]) if two_bogies else ("", end)
+    return [f"{BOGIES[x]} bogie" for x in bogie] + [f"{ENDS[x]} end" for x in inside]

@@ -1,7 +1,7 @@
 """Tables of runs and of the yaw damper as a component."""
 
 from collections.abc import Iterator, Mapping
-from math import degrees
+from math import degrees, isinf
 from typing import TYPE_CHECKING
 
 from rich.console import Group, RenderableType
@@ -11,7 +11,7 @@ from rich.text import Text
 from yawdesign.output.response_plots import SHOWN, meaning
 from yawdesign.output.tables import damping, facts, speed, titled, verified
 from yawdesign.problem import format_quantity
-from yawdesign.vehicle.vehicle import known_coordinates
+from yawdesign.vehicle.signals import acceleration, first_looked_at
 
 if TYPE_CHECKING:
     from yawdesign.response.run.damper_component import DamperComponent
@@ -24,8 +24,8 @@ def simulation_tables(result: "Simulation") -> RenderableType:
     head = Text(f"Track {result.track}, C_s = {damping(result.C_s)}")
     checked = [] if result.checked else [Text("NOT VERIFIED: the two ways to a number differ", "bold yellow")]
     parts: list[RenderableType] = [head, *notes, _growth(result), *_verdicts(result), *checked]
-    parts += [_frame(result), _motions(result), _forces(result)]
-    return Group(*parts, *([damper_tables(result.damper)] if result.damper else []))
+    parts += [_frame(result), *_ride_comfort(result), _motions(result), _forces(result)]
+    return Group(*parts, *map(damper_tables, result.dampers))
 
 
 def _growth(result: "Simulation") -> Table:
@@ -45,23 +45,30 @@ def _verdicts(result: "Simulation") -> Iterator[Text]:
 
 
 def _frame(result: "Simulation") -> Table:
-    title = "The frame in these runs and, RMS by integral over the spectrum, in an endless one (mm, mrad)"
-    names = ("y_b", "phi_b")
-    columns = [what for name in names for what in (f"{name} RMS", "peak", "endless")]
-    table = titled(title, "speed", *columns, "start")
+    title = "What is looked at first, in these runs and, RMS by integral over the spectrum, in one without an end"
+    table = titled(title, "speed", "", "RMS", "peak", "without an end", "unit", "start")
     for one in result.runs:
-        cells = [
-            "" if values is None else f"{1e3 * values[name]:.4g}"
-            for name in names
-            for values in (one.rms, one.peak, one.rms_stationary)
-        ]
-        table.add_row(speed(one.speed), *cells, one.start)
+        for name in first_looked_at(one.rms):
+            factor, unit = SHOWN[result.histories[0].unit(name)]
+            sizes = (one.rms, one.peak, one.rms_stationary)
+            cells = ["" if values is None else f"{factor * values[name]:.4g}" for values in sizes]
+            table.add_row(speed(one.speed), name, *cells, unit, one.start)
     return table
+
+
+def _ride_comfort(result: "Simulation") -> Iterator[Table]:
+    """Yield the table of ride comfort of a vehicle with a car body."""
+    if any(one.rms_weighted for one in result.runs):
+        title = "Ride comfort in these runs: lateral acceleration of the car body, RMS weighted by W_d of ISO 2631-1"
+        table = titled(title, "speed", *(f"{name} [m/s²]" for name in result.runs[0].rms_weighted))
+        for one in result.runs:
+            table.add_row(speed(one.speed), *(f"{size:.4g}" for size in one.rms_weighted.values()))
+        yield table
 
 
 def _motions(result: "Simulation") -> Table:
     rates = ("", "_velocity", "_acceleration")
-    names = [name for name in result.rms if name in known_coordinates()]
+    names = [name for name in result.rms if acceleration(name) in result.rms]
     columns = [what for rate in ("u", "u'", "u''") for what in (f"{rate} RMS", "peak")]
     title = f"Responses at {speed(result.speed)}: displacement u (mm, mrad), u' (mm/s, mrad/s), u'' (m/s², rad/s²)"
     table = titled(title, "", *columns)
@@ -88,22 +95,25 @@ def _forces(result: "Simulation") -> Table:
 
 def damper_tables(result: "DamperComponent") -> RenderableType:
     """Return the tables of a `DamperComponent`."""
-    lost = result.decay_rate - result.decay_rate_rigid
+    lost, rigid = result.decay_rate - result.decay_rate_rigid, isinf(result.K_ds)
     rows = [
         (
             "each of the two dampers",
-            f"{damping(result.C_each)} between two joints of {format_quantity(result.K_ds, 'MN/m')}",
+            f"{damping(result.C_each)}, rigidly mounted"
+            if rigid
+            else f"{damping(result.C_each)} between two joints of {format_quantity(result.K_ds, 'MN/m')}",
         ),
         ("force of each at 0.1 m/s", format_quantity(result.force_at_rated_velocity, "kN", 4)),
         (f"force of each, run at {speed(result.speed)}", _two(result.force_rms, result.force_peak, 1e-3, "kN")),
         ("stroke of each piston", _two(result.stroke_rms, result.stroke_peak, 1e3, "mm")),
         ("velocity of each piston", _two(result.velocity_rms, result.velocity_peak, 1e3, "mm/s")),
-        ("above this the joints give way more", f"{result.corner_frequency:.3f} Hz"),
+        ("above this the joints are displaced more", "never" if rigid else f"{result.corner_frequency:.3f} Hz"),
         ("decay rate with these joints", f"{result.decay_rate:.4f} 1/s"),
         ("decay rate with rigid joints", f"{result.decay_rate_rigid:.4f} 1/s (the joints: {lost:+.4f})"),
         ("checked", verified(result.checked)),
     ]
-    return Group(facts("The yaw damper to order", rows), _stiffnesses(result))
+    where = meaning(result.name.replace(" ", "_")).removeprefix("yaw damper")
+    return Group(facts(f"The yaw damper to order{where}", rows), _stiffnesses(result))
 
 
 def _two(rms: float, peak: float, factor: float, unit: str) -> str:
@@ -111,7 +121,8 @@ def _two(rms: float, peak: float, factor: float, unit: str) -> str:
 
 
 def _stiffnesses(result: "DamperComponent") -> Table:
-    title = "Dynamic stiffness of the pair, joints included: Z = K_ds C_s s / (K_ds + C_s s)"
+    law = "C_s s" if isinf(result.K_ds) else "K_ds C_s s / (K_ds + C_s s)"
+    title = f"Dynamic stiffness of the pair, joints included: Z = {law}"
     table = titled(title, "f [Hz]", "|Z| [MN/m]", "phase [°]", "loss factor", "kN·s/m left", "% of C_s")
     at = [(f"{z.frequency:g}", z) for z in result.over_frequency]
     if result.at_hunting is not None:

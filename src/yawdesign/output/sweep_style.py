@@ -46,6 +46,8 @@ def title(sweep: Sweep) -> str:
     """Return what the picture is of: the problem, and what is not on its axes."""
     problem, names = sweep.request.problem, {axis.name for axis in sweep.request.axes}
     parts = [literal(problem.title), *(f"equations {problem.equations}" for _ in range(problem.bogie.kind == "power"))]
+    if problem.car_body is not None:
+        parts.append("car body moving")
     if "v" not in names and sweep.quantity != "critical_speed":
         parts.append(
             " to ".join(f"{to_unit(v, 'km/h'):.4g}" for v in sorted({*problem.speeds[:1], *problem.speeds[-1:]}))

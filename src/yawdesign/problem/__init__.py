@@ -1,5 +1,6 @@
 """What was written: units, the table of parameters, problem files, and the problem they describe."""
 
+from .creep import creep_coefficients
 from .diagnostics import Diagnostic, ProblemError
 from .parameters import PARAMETERS, Bogie, CarBody
 from .presets import table1
@@ -26,6 +27,7 @@ __all__ = [
     "SpeedRange",
     "Variable",
     "Written",
+    "creep_coefficients",
     "exact",
     "format_quantity",
     "load",

@@ -7,7 +7,7 @@ from itertools import chain
 
 from .cases import Case, outside
 from .diagnostics import Diagnostic, unknown_key
-from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, PARAMETERS, VERTICAL
+from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, NO_ROLL, PARAMETERS, ROLL_NEEDS_IT, VERTICAL
 from .table import RIGID
 
 GRAVITY = 9.80665  # [m/s^2], the standard acceleration of free fall
@@ -59,7 +59,7 @@ def _vertical_suspension(bogie: Values, car_body: Values | None) -> Iterator[Dia
         if car_body is not None:
             text = "belongs under car_body, where there is one" if key in bogie else ""
         elif (key in bogie) != ("I_b" in bogie):
-            text = "belongs to roll: I_b is missing" if key in bogie else "is missing: roll of the frame (I_b) needs it"
+            text = NO_ROLL if key in bogie else ROLL_NEEDS_IT
         if text:
             yield Diagnostic(key=f"bogie.{key}", message=text)
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from .consistency import fitting_axle_load
+from .creep import CREEP
 from .document import Path
 from .parameters import BOGIE, CAR_BODY, PARAMETERS
 from .problem import Problem
@@ -35,6 +36,8 @@ def _written_values(data: Mapping[str, Any]) -> Iterator[tuple[Path, Parameter, 
         for key, value in data.get(part, {}).items():
             if key in rows:
                 yield (part, key), rows[key], value
+    for key, value in data["bogie"].get("creep", {}).items():
+        yield ("bogie", "creep", key), CREEP[key], value
     speed = data["speed"]
     ends = {("speed", end): speed[end] for end in ("min", "max")} if isinstance(speed, dict) else {("speed",): speed}
     yield from ((path, SPEED, value) for path, value in ends.items())

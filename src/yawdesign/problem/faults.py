@@ -11,6 +11,7 @@ from pydantic import ValidationError
 
 from .cases import read_cases
 from .consistency import Values, misfits
+from .creep import CREEP, MADE
 from .diagnostics import Diagnostic, ProblemError, nearest, suggestion
 from .document import Path
 from .file_shape import SWITCHES
@@ -153,6 +154,8 @@ def _unknown(path: Path, kind: str) -> str:
         return _NO_ROBUST
     if kind == "trailer" and key in MOTOR_KEYS and around in (("bogie",), ("design", "variables")):
         return NO_MOTOR
+    if key in MADE and around == ("bogie",):
+        return "follows from creep: remove one of the two"
     home = _home(key, around, kind)
     if home is not None:
         place = f"under {dotted(home)}" if home else f"beside {dotted(around)}, not in it"
@@ -168,7 +171,9 @@ def _allowed(around: Path, kind: str) -> tuple[str, ...]:
         case ():
             return _TOP
         case ("bogie",):
-            return ("kind", "base", *bogie_keys(kind), *SWITCHES["bogie"])
+            return ("kind", "base", *bogie_keys(kind), *SWITCHES["bogie"], "creep")
+        case ("bogie", "creep"):
+            return tuple(CREEP)
         case ("car_body",):
             return ("base", *CAR_BODY, *SWITCHES["car_body"])
         case ("curve",):

@@ -23,7 +23,8 @@ from pydantic import (
 from pydantic import create_model as make
 
 from .cases import as_cases
-from .diagnostics import ProblemError
+from .creep import CREEP, MADE, creep_coefficients
+from .diagnostics import Mistakes, ProblemError
 from .parameters import BOGIE, CAR_BODY, KINDS, PARAMETERS, Bogie, CarBody, bogie_keys
 from .patterns import unit_pattern
 from .problem import EQUATIONS, Problem
@@ -95,10 +96,14 @@ def _part(part: str, rows: Iterable[Parameter], *, complete: bool) -> dict[str, 
     return {"base": (base, None), **values, **switches}
 
 
-def _bogie_model(kind: str, *, complete: bool) -> type[BaseModel]:
+def _bogie_model(kind: str, *, complete: bool, by_creep: bool) -> type[BaseModel]:
     kinds = _choice(KINDS, "With or without motors hung on the frame.", "power")
-    part = _part("bogie", (BOGIE[key] for key in bogie_keys(kind)), complete=complete)
-    return _model("Bogie", "The bogie, with the symbols of Table I.", {"kind": (kinds, "power"), **part})
+    left_out = MADE if by_creep else ()
+    part = _part("bogie", (BOGIE[key] for key in bogie_keys(kind) if key not in left_out), complete=complete)
+    meaning = "Instead of f_11 and f_22: both from the axle load and the radius of the wheels, by Hertz and Kalker."
+    creep = _model("Creep", meaning, {row.key: (quantity(row), None) for row in CREEP.values()})
+    entries = {"kind": (kinds, "power"), **part, "creep": (creep, None)}
+    return _model("Bogie", "The bogie, with the symbols of Table I.", entries)
 
 
 def _car_body_model(*, complete: bool) -> type[BaseModel]:
@@ -159,7 +164,9 @@ def _design_model(kind: str) -> type[BaseModel]:
 
 
 @cache
-def problem_model(kind: str, complete: frozenset[str] = frozenset(PRESETS)) -> type[BaseModel]:
+def problem_model(
+    kind: str, complete: frozenset[str] = frozenset(PRESETS), *, by_creep: bool = False
+) -> type[BaseModel]:
     """Return the model of a problem file.
 
     Parameters
@@ -168,6 +175,8 @@ def problem_model(kind: str, complete: frozenset[str] = frozenset(PRESETS)) -> t
         Whether there are motors.
     complete : frozenset of str
         Of which parts all parameters are required: ``bogie``, ``car_body``; they are not where the preset is not known.
+    by_creep : bool
+        Whether the creep coefficients follow from the axle load, and are not given.
     """
     text = _leaf(as_text, {"type": "string", "description": "Any text; it heads tables and plots."})
     equations = _choice(
@@ -181,7 +190,7 @@ def problem_model(kind: str, complete: frozenset[str] = frozenset(PRESETS)) -> t
         {
             "title": (text, None),
             "equations": (equations, None),
-            "bogie": (_bogie_model(kind, complete="bogie" in complete), ...),
+            "bogie": (_bogie_model(kind, complete="bogie" in complete, by_creep=by_creep), ...),
             "car_body": (_car_body_model(complete="car_body" in complete), None),
             "speed": (_speed(), ...),
             "curve": (_curve_model(), None),
@@ -198,7 +207,7 @@ def build(model: BaseModel) -> Problem:
     return Problem(
         title=data.get("title", ""),
         equations=data.get("equations", "reciprocal"),
-        bogie=Bogie(**_values(data["bogie"])),
+        bogie=Bogie(**_values(data["bogie"]), **_made(data["bogie"])),
         car_body=CarBody(**_values(data["car_body"])) if "car_body" in data else None,
         speed=SpeedRange(**speed) if isinstance(speed, dict) else speed,
         curve=Curve(**data["curve"]) if "curve" in data else None,
@@ -214,7 +223,17 @@ def given(model: BaseModel) -> dict[str, Any]:
 
 
 def _values(data: dict[str, Any]) -> dict[str, Any]:
-    return {field_name(key): value for key, value in data.items() if key != "base"}
+    return {field_name(key): value for key, value in data.items() if key not in ("base", "creep")}
+
+
+def _made(bogie: dict[str, Any]) -> dict[str, Any]:
+    """Return the creep coefficients of a bogie that has them by the axle load."""
+    found: dict[str, float] = {}
+    if "creep" in bogie:
+        with (mistakes := Mistakes()).under("bogie.creep"):
+            found = creep_coefficients(bogie["W"], bogie["r"], **bogie["creep"])
+        mistakes.report()
+    return found
 
 
 def _design(data: dict[str, Any]) -> Design:

@@ -420,6 +420,7 @@ def given_values(part: Bogie | CarBody) -> dict[str, float]:
     return {key: value for key, value in given_of(part).items() if not math.isinf(value)}
 
 
+NO_ROLL, ROLL_NEEDS_IT = "belongs to roll: I_b is missing", "is missing: roll of the frame (I_b) needs it"
 NO_MOTOR = "belongs to the motors, and a trailer bogie has none: remove it, or choose kind: power"
 BOGIE, CAR_BODY = table(Bogie), table(CarBody)
 PARAMETERS = MappingProxyType({**BOGIE, **CAR_BODY})
@@ -436,10 +437,7 @@ def incomplete(given: Collection[str]) -> Iterator[Diagnostic]:
             yield Diagnostic(key=f"bogie.{joint}", message=f"needs the damper: {damper} is missing")
     for key in ROLL_KEYS:
         if key not in VERTICAL and (key in given) != ("I_b" in given):
-            text = (
-                "is missing: roll of the frame (I_b) needs it" if "I_b" in given else "belongs to roll: I_b is missing"
-            )
-            yield Diagnostic(key=f"bogie.{key}", message=text)
+            yield Diagnostic(key=f"bogie.{key}", message=NO_ROLL if key in given else ROLL_NEEDS_IT)
 
 
 def bogie_keys(kind: str) -> tuple[str, ...]:

@@ -7,6 +7,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from .creep import MADE
 from .diagnostics import Mistakes
 from .document import compose, plain_data
 from .file_shape import PRESETS, build, problem_model
@@ -49,7 +50,7 @@ def with_presets(data: dict[str, Any]) -> tuple[dict[str, Any], frozenset[str]]:
             complete.remove(part)
             continue
         preset = preset_bogie(base, kind_of_bogie(data)) if part == "bogie" else preset_car_body(base)
-        filled[part] = preset | given
+        filled[part] = {key: x for key, x in preset.items() if key not in MADE or "creep" not in given} | given
     return filled, frozenset(complete)
 
 

@@ -142,7 +142,8 @@ def _validated(document: Document, data: dict[str, Any]) -> Problem | None:
     filled, complete = with_presets(data)
     kind = kind_of_bogie(data)
     try:
-        return build(problem_model(kind, complete).model_validate(filled))
+        by_creep = isinstance(filled.get("bogie"), dict) and "creep" in filled["bogie"]
+        return build(problem_model(kind, complete, by_creep=by_creep).model_validate(filled))
     except ValidationError as error:
         found = [*faults(error, kind), *disagreements(filled, kind)]
     except ProblemError as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .cases import BOGIES
+from .creep import MADE
 from .file_shape import problem_model
 from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, ROLL_KEYS, VERTICAL, parameter_keys
 
@@ -75,7 +76,8 @@ def _shared(part: Any, texts: dict[str, Any]) -> Any:
 
 def _bogie_rules() -> list[dict[str, Any]]:
     """Return which parameters must be there: none with a preset, those of the motors only where there are motors."""
-    always = [key for key in parameter_keys("trailer") if not BOGIE[key].optional]
+    always = [key for key in parameter_keys("trailer") if not BOGIE[key].optional and key not in MADE]
+    by_creep = {"required": ["creep"]}
     motors = {"if": _PRESET, "else": {"required": list(MOTOR_KEYS)}}
     own = [key for key in ROLL_KEYS if key not in VERTICAL]
     together = {key: [other for other in own if other != key] for key in own} | {"K_d1x": ["C_1x"], "K_d1y": ["C_1y"]}
@@ -83,6 +85,8 @@ def _bogie_rules() -> list[dict[str, Any]]:
         {"if": _PRESET, "else": {"required": always}},
         {"if": _TRAILER, "then": {"properties": dict.fromkeys(MOTOR_KEYS, False)}, "else": motors},
         {"dependentRequired": together},
+        {"if": by_creep, "then": {"properties": dict.fromkeys(MADE, False)}},
+        {"if": {"not": {"anyOf": [by_creep, _PRESET]}}, "then": {"required": list(MADE)}},
     ]
 
 

@@ -36,6 +36,8 @@ _OPTIONAL = """\
   # What Table I does not have, and a bogie may. A joint may be `rigid`.
 
 {lines}
+
+  # creep: {{kalker_factor: 0.6, rail_radius: 300 mm}} # in place of f_11, f_22: from the axle load, by Kalker
   # gravitational_stiffness: false # the axle load does not centre the wheelsets; the curve's formula has it still"""
 
 _CAR_BODY = """\

@@ -94,7 +94,7 @@ def identity(asked: Request) -> dict[str, Any]:
 
 
 def _digest_of_data(data: Any) -> str:
-    return sha256(json.dumps(data).encode()).hexdigest()
+    return sha256(json.dumps(data, default=sorted).encode()).hexdigest()  # a set has no order of its own
 
 
 def _write(path: Path, asked: Request, store: Store, *, replace: bool) -> None:

@@ -11,9 +11,9 @@ import numpy as np
 from yawdesign.problem import PARAMETERS, Curve, Problem, ProblemError
 from yawdesign.problem.conditions import CREEP, Condition, conditions, distinct
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
-from yawdesign.problem.parameters import MOTOR_KEYS, NO_MOTOR, parameter_keys
+from yawdesign.problem.parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR
 from yawdesign.problem.running import SpeedRange
-from yawdesign.problem.table import as_choice, key_of
+from yawdesign.problem.table import RIGID, as_choice, key_of
 from yawdesign.study.axes import DERIVED, ROWS, Axis, applied, read_axis, shape
 from yawdesign.vehicle.vehicle import Model
 
@@ -168,7 +168,7 @@ def _quantity(problem: Problem, of: str) -> str:
 
 
 def _parameters(problem: Problem, quantity: str) -> dict[str, float]:
-    p = {name: float(x) for name, x in problem.bogie.parameters().items()}
+    p = {name: float(x) for name, x in problem.parameters().items()}
     return p if quantity in NEEDS_DAMPING else {name: x for name, x in p.items() if name != "C_s"}
 
 
@@ -195,13 +195,21 @@ def _read(problem: Problem, pairs: list[tuple[str, Any]], mistakes: Mistakes) ->
 
 
 def _check_name(problem: Problem, name: str) -> None:
-    kind = problem.bogie.kind
-    if kind == "trailer" and (name in MOTOR_KEYS or (name in DERIVED and DERIVED[name].motor)):
+    if problem.bogie.kind == "trailer" and (name in MOTOR_KEYS or (name in DERIVED and DERIVED[name].motor)):
         raise ProblemError(NO_MOTOR)
-    allowed = [key for key in ROWS if key not in PARAMETERS or key in parameter_keys(kind)]
+    allowed = [key for key in ROWS if key not in PARAMETERS or key in problem.keys]
+    if name in PARAMETERS and name not in allowed:
+        raise ProblemError(_why_absent(problem, name))
     if name not in allowed:
-        raise ProblemError(f"{unknown_key(name, allowed)}; an axis is a parameter of the bogie, v, or one of "
+        raise ProblemError(f"{unknown_key(name, allowed)}; an axis is a parameter of the problem, v, or one of "
                            f"{', '.join(key for key in DERIVED if key in allowed)}")  # fmt: skip
+
+
+def _why_absent(problem: Problem, name: str) -> str:
+    if getattr(problem.bogie, name, None) == RIGID:
+        return "is rigid in the problem: give it a stiffness first"
+    under_body = name in CAR_BODY and (problem.car_body is not None or name not in BOGIE)
+    return f"is not part of this vehicle: give its value under {'car_body' if under_body else 'bogie'} first"
 
 
 def _check_hold(problem: Problem, hold: str | None, names: list[str]) -> None:

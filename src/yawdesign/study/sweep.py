@@ -81,7 +81,7 @@ def sweep(
     chunk : int, optional
         Points that are computed at a time.
     **axes
-        By name: any parameter of the bogie (``lambda_`` for the conicity), ``v`` [m/s], ``f_m`` [Hz], ``xi_m`` or
+        By name: any parameter of the problem (``lambda_`` for the conicity), ``v`` [m/s], ``f_m`` [Hz], ``xi_m`` or
         ``creep_factor`` (of f_11 and f_22). Values in rising order, numbers in SI or texts with a unit; or a text
         ``"150 km/h:450 km/h:60"``, with ``:log`` behind it for equal ratios.
 

@@ -9,7 +9,18 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import Any
 
 from yawdesign.problem.cases import BOGIES, SHARE
-from yawdesign.vehicle.elements import Dashpot, Element, Law, Link, Mass, Maxwell, Pair, Spring, WheelRailContact
+from yawdesign.vehicle.elements import (
+    Dashpot,
+    Element,
+    Law,
+    Link,
+    Mass,
+    Maxwell,
+    Pair,
+    Point,
+    Spring,
+    WheelRailContact,
+)
 from yawdesign.vehicle.polynomials import times
 
 Parameters = Mapping[str, Any]  # of Number
@@ -49,7 +60,8 @@ def with_car_body(p: Parameters, flags: Collection[str], bogie: Callable[[Parame
         Mass("y_c", p["M_c"], body="car body", name="sway", creeping="overdamped sway"),
         Mass(*("psi_c", p["J_c"], "rad", "car body"), name="car body yaw", creeping="overdamped car body yaw"),
         Mass("th_c", p["I_c"], unit="rad", body="car body", name="sway", creeping="overdamped sway"),
-        Pair(tuple(leading), own=coordinates(leading), rear=tuple(trailing)),
+        Pair(tuple(leading), own=coordinates(leading), rear=tuple(trailing), half=p["l_c"]),
+        Pair((Point("y_c", {"y_c": 1}, lever={"psi_c": p["l_c"]}),)),  # above each bogie, as high as the centre of mass
         *weight,
     ]
 
@@ -109,7 +121,7 @@ def trailer_bogie(p: Parameters, equations: str = "reciprocal", flags: Collectio
         Mass("phi_w", p["J_w"], unit="rad", body="wheelset", name="wheelset hunting", creeping="wheelset creep"),
         contact,
         *_primary(p, "y", {"y_b": 1, "y_w": -1, **_height(p, 1, "h_1")}, {"phi_b": p["a"]}, 1),
-        *_primary(p, "x", {"phi_b": 1, "phi_w": -1}, {}, arm_1),
+        *_primary(p, "x", {"phi_b": 1, "phi_w": -1}, {}, p["b_1"]),
     )
     lateral_law = _damper(p, "K_dt", p["C_t"] / 2, both=2)
     lateral_damper = Link(
@@ -132,7 +144,7 @@ def trailer_bogie(p: Parameters, equations: str = "reciprocal", flags: Collectio
         _yaw_dampers(p, yawing),
         *_roll(p, arm_1, arm_2, rolling),
         Pair((lateral_damper,)),
-        Pair(wheelset, own=frozenset({"y_w", "phi_w"})),
+        Pair(wheelset, own=frozenset({"y_w", "phi_w"}), half=p["a"]),
     ]
 
 
@@ -152,14 +164,17 @@ def _yaw_dampers(p: Parameters, yawing: Mapping[str, int]) -> Link:
 
 
 def _primary(p: Parameters, axis: str, gap: Mapping[str, Any], lever: Mapping[str, Any], arm: Any) -> list[Element]:
-    """Return the primary suspension of a wheelset along one axis: its spring and, if there are any, its dampers."""
-    spring = Link((Spring(times(p[f"K_1{axis}"], arm)),), gap, lever=lever)
+    """Return the primary suspension of a wheelset along one axis: its spring and, if there are any, its dampers.
+
+    What is displaced by an angle times `arm` has the force [N] and the stroke [m] of a damper, not those of an angle.
+    """
+    spring = Link((Spring(times(p[f"K_1{axis}"], arm * arm)),), gap, lever=lever)
     if f"C_1{axis}" not in p:
         return [spring]
-    joint = {"K": times(p[f"K_d1{axis}"], arm)} if f"K_d1{axis}" in p else {}
-    law = _damper(joint, "K", times(p[f"C_1{axis}"], arm))
+    law = _damper(p, f"K_d1{axis}", p[f"C_1{axis}"])
+    pulled, turned = ({x: times(arm, g) for x, g in part.items()} for part in (gap, lever))
     name = {"x": "primary longitudinal damper", "y": "primary lateral damper"}[axis]
-    return [spring, Link((law,), gap, lever=lever, name=name)]
+    return [spring, Link((law,), pulled, lever=turned, name=name, pieces=2)]
 
 
 def _roll(p: Parameters, arm_1: Any, arm_2: Any, rolling: Mapping[str, int]) -> list[Element]:

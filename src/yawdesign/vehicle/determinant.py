@@ -116,11 +116,11 @@ class Determinant:
 
     def rooted(self, root: Node, nodes: frozenset[Node], diagonal: Polynomial) -> Polynomial:
         """Return the minor over the given nodes, with another diagonal entry at root."""
-        value, rest = diagonal, ONE
+        value, rest, alone = diagonal, ONE, ONE
         for piece in _pieces(self._inside(nodes - {root}), self._both):
+            rest = multiply(rest, alone)  # of the pieces before this one
             alone = self.of(piece)
             value = add(multiply(value, alone), multiply(self._through(root, piece), rest))
-            rest = multiply(rest, alone)
         return value
 
     def _through(self, root: Node, piece: frozenset[Node]) -> Polynomial:

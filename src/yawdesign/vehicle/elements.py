@@ -223,6 +223,8 @@ class WheelRailContact:
     spinning : number
         Moment of inertia about the axle [kg m^2]. As the wheelset runs, shifted by y, it rolls by lambda y / b, and the
         spin v / r turns a roll velocity into a yaw moment, a yaw velocity into a lateral force.
+    ahead : number
+        How far the wheelset stands in front of the vehicle's centre [m]; which track it meets when follows from this.
     """
 
     y: str
@@ -238,6 +240,7 @@ class WheelRailContact:
     cross_level: str = "cross_level"
     gravitates: bool = True
     spinning: Number = 0
+    ahead: Number = 0
 
     def entries(self) -> dict[tuple[str, str], Polynomial]:
         """Return the polynomial entries (row, column) of the contact."""
@@ -267,7 +270,27 @@ def _is_absent(x: Any) -> bool:
     return type(x) is int and x == 0
 
 
-Single = Link | Mass | WheelRailContact
+@dataclass(frozen=True)
+class Point:
+    """A point of a body whose motion is looked at beside the coordinates.
+
+    Parameters
+    ----------
+    name : str
+        Like that of a coordinate, such as ``y_c``: in a pair ``y_c1`` at the front end and ``y_c2`` at the rear one.
+    gap, lever : mapping coordinate -> coefficient
+        Its displacement, as in a `Link`.
+    unit : {"m", "rad"}
+        Unit of the displacement.
+    """
+
+    name: str
+    gap: Coefficients
+    lever: Coefficients = field(default_factory=dict)
+    unit: str = "m"
+
+
+Single = Link | Mass | WheelRailContact | Point
 
 
 @dataclass(frozen=True)
@@ -284,11 +307,14 @@ class Pair:
         belongs to the ends of a pair inside: ``y_w11``, ``y_w12``, ``y_w21``, ``y_w22``, the outer end first.
     rear : tuple, optional
         The rear end's elements, the same but for their numbers, where these differ. Such a pair is not folded.
+    half : number
+        Half the distance of both ends [m]; 0 where no wheelset stands in the pair.
     """
 
     elements: "tuple[Element, ...]"
     own: frozenset[str] = frozenset()
     rear: "tuple[Element, ...]" = ()
+    half: Number = 0
 
     def both_ends(self) -> list[Single]:
         """Return front and rear elements, in the coordinates of each end."""
@@ -307,12 +333,15 @@ class Pair:
 
     def _apart(self, front: "Iterable[Single]", rear: "Iterable[Single]") -> list[Single]:
         ends = (("1", 1, front), ("2", -1, rear))
-        return [self._rename(_at_end(e, sign), end) for end, sign, inside in ends for e in inside]
+        return [self._rename(_at_end(e, sign, self.half), end) for end, sign, inside in ends for e in inside]
 
     def _owns(self, x: str) -> bool:
         return parted(x)[0] in self.own
 
     def _fold(self, element: Single, sign: str) -> Single | None:
+        if isinstance(element, Point):
+            part = element.gap if sign == "+" else element.lever
+            return replace(element, gap=part, lever={}) if part else None
         if not isinstance(element, Link):
             return element
         own = {x: g for x, g in element.gap.items() if self._owns(x)}
@@ -335,6 +364,9 @@ class Pair:
             case WheelRailContact():
                 track: Any = {x: _numbered(getattr(element, x), suffix, "_") for x in ("alignment", "cross_level")}
                 return replace(element, y=new(element.y), phi=new(element.phi), **track)
+            case Point():
+                moved: Any = {part: {new(x): g for x, g in getattr(element, part).items()} for part in ("gap", "lever")}
+                return replace(element, name=_numbered(element.name, suffix), **moved)
         parts: Any = {part: {new(x): g for x, g in getattr(element, part).items()} for part in ("gap", "lever", "ends")}
         acts_on = None if element.acts_on is None else frozenset(map(new, element.acts_on))
         return replace(element, acts_on=acts_on, name=element.name and _numbered(element.name, suffix, " "), **parts)
@@ -352,11 +384,16 @@ def _numbered(name: str, suffix: str, blank: str = "") -> str:
     return stem + suffix + inside if inside else f"{name}{blank}{suffix}"
 
 
-def _at_end(element: Single, sign: int) -> Single:
+def _at_end(element: Single, sign: int, half: Number) -> Single:
     """Return an element at the front (+1) or rear (-1) end; its lever then is that of the next pair around."""
-    if not isinstance(element, Link):
-        return element
+    match element:
+        case WheelRailContact():
+            return replace(element, ahead=plus(element.ahead, times(sign, half)))
+        case Mass():
+            return element
     gap = joined(element.gap, {x: times(sign, g) for x, g in element.lever.items()})
+    if isinstance(element, Point):
+        return replace(element, gap=gap, lever={})
     return replace(element, gap=gap, lever=element.outer, outer={})
 
 

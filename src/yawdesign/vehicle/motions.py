@@ -69,17 +69,45 @@ def motions(elements: Sequence[Single]) -> tuple[Motion, ...]:
     ValueError
         If a yaw damper has no name, or is not one damper in series with a spring.
     """
-    dampers = {e.own_name: _law(e) for e in elements if isinstance(e, Link) and e.varied}
+    dampers = {damper.own_name: _law(damper) for damper in _yaw_dampers(elements)}
     matrix = Determinant(_without_laws(polynomial_matrix(_with_unit_laws(elements)), dampers))
+    found = []
+    for name, coordinates, piece in _parts(elements, matrix):
+        own = {damper: law for damper, law in dampers.items() if damper in piece}
+        found.append(Motion(name, coordinates, _coefficients(matrix, piece, own)))
+    return tuple(found)
+
+
+def polynomials(elements: Sequence[Single]) -> dict[str, Polynomial]:
+    """Return the characteristic polynomial of every motion at the yaw damping that the elements have, by its name.
+
+    The polynomials are those of `motions`, lowest power of s first, but for rounding. With the yaw dampers' laws in the
+    matrix there is one determinant instead of one for every way to free and to lock them: with two, half the work.
+
+    Parameters
+    ----------
+    elements : sequence
+        As in `motions`; a yaw damper that has no damping may leave highest coefficients that are zero.
+    """
+    matrix = Determinant(polynomial_matrix(elements))
+    return {name: matrix.of(piece) for name, _, piece in _parts(elements, matrix)}
+
+
+def _yaw_dampers(elements: Iterable[Single]) -> list[Link]:
+    return [e for e in elements if isinstance(e, Link) and e.varied]
+
+
+def _parts(elements: Sequence[Single], matrix: Determinant) -> list[tuple[str, frozenset[str], frozenset[Node]]]:
+    """Return name, coordinates and nodes of all motions, those that a yaw damper reaches first."""
+    dampers = {damper.own_name for damper in _yaw_dampers(elements)}
     masses = {e.coordinate: e for e in elements if isinstance(e, Mass)}
     found = []
     for piece in matrix.factors(matrix.nodes):
-        own = {name: softness for name, softness in dampers.items() if name in piece}
         coordinates = frozenset(x for x in masses if x in piece)
         if coordinates:
-            name = COUPLED if own else _name([masses[x] for x in sorted(coordinates)])
-            found.append(Motion(name, coordinates, _coefficients(matrix, piece, own)))
-    return tuple(sorted(found, key=lambda motion: not motion.varied))
+            name = COUPLED if dampers & piece else _name([masses[x] for x in sorted(coordinates)])
+            found.append((name, coordinates, piece))
+    return sorted(found, key=lambda part: part[0] != COUPLED)
 
 
 def _law(damper: Link) -> Law:

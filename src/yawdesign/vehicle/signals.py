@@ -2,14 +2,34 @@
 
 Coordinates are ``y_b``, ``phi_b``, ``y_w1``, ..., their rates ``y_b_velocity`` and ``y_b_acceleration``. A damper in
 series with its joints is displaced by ``yaw_damper_displacement``, its piston by ``yaw_damper_stroke``;
-``yaw_damper_force`` is the force of *each* of the two yaw dampers, ``yaw_damper_pair_force`` that of both.
+``yaw_damper_force`` is the force of *each* of the two yaw dampers, ``yaw_damper_pair_force`` that of both. A rigidly
+mounted damper has no stroke of its own: it is the displacement.
+
+Under a car body ``y_c``, ``psi_c``, ``th_c`` the number of the bogie comes first: ``y_b1`` is the frame of the leading
+bogie, ``y_w12`` its rear wheelset, ``yaw_damper_force_2`` belongs to the trailing one. ``y_c1`` and ``y_c2`` are the
+car body's lateral motion above the centre of each bogie, as high as its centre of mass.
 """
 
+from collections.abc import Iterable
 from typing import Any
 
-DIRECTIONS = {"y": "lateral", "phi": "yaw"}  # by what the name of a coordinate begins with
+DIRECTIONS = {"y": "lateral", "phi": "yaw", "psi": "yaw", "th": "roll"}  # by what the name of a coordinate begins with
 ENDS = {"1": "front", "2": "rear"}  # by what the name of what belongs to one end of a pair ends with
+BOGIES = {"1": "leading", "2": "trailing"}  # the same of what belongs to one of two bogies
+FIRST_LOOKED_AT = ("y_c1_acceleration", "y_c2_acceleration", "y_b", "phi_b", "y_b1", "phi_b1", "y_b2", "phi_b2")
 OLD_OUTPUTS = {"F_s": "yaw_damper_pair_force", "u_s": "yaw_damper_displacement"}
+
+
+def first_looked_at(names: Iterable[str]) -> tuple[str, ...]:
+    """Return which responses are shown first: the car body above both bogies, and the frames.
+
+    Examples
+    --------
+    >>> first_looked_at(["phi_b", "y_w1", "y_b"])
+    ('y_b', 'phi_b')
+    """
+    there = set(names)
+    return tuple(name for name in FIRST_LOOKED_AT if name in there)
 
 
 def velocity(coordinate: str) -> str:

@@ -1,16 +1,27 @@
 """The state space of a vehicle: x' = A x + B u, y = C x + D u, with names and units, for numbers of any type.
 
 The states are the coordinates, their velocities, and the dashpot stroke z of every damper in series with a spring, for
-which z' = K/c (u - z) and the force is K (u - z). With a rigid joint (K = inf) the force is c u', without a stroke.
+which z' = K/c (u - z) and the force is K (u - z). With a rigid joint the force is c u', and there is no stroke.
 The inputs are what the track does under each wheelset; the outputs are all that is of interest.
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
-from yawdesign.vehicle.elements import Dashpot, Link, Mass, Maxwell, Single, Spring, WheelRailContact
+from yawdesign.vehicle.elements import (
+    Coefficients,
+    Dashpot,
+    Law,
+    Link,
+    Mass,
+    Maxwell,
+    Point,
+    Single,
+    Spring,
+    WheelRailContact,
+)
 from yawdesign.vehicle.polynomials import Number, plus, times
 from yawdesign.vehicle.signals import SignalNames, acceleration, of_damper, rate_unit, velocity
 
@@ -23,7 +34,7 @@ class StateSpace:
 
     Parameters
     ----------
-    elements : sequence of Mass, Link, WheelRailContact
+    elements : sequence of Mass, Link, WheelRailContact, Point
         In the coordinates of each end, or in half sums and half differences of both.
 
     Attributes
@@ -103,7 +114,7 @@ class StateSpace:
             self.B[place] = force / self._masses[row].m
 
     def _add_link(self, link: Link) -> None:
-        for law in link.laws:
+        for law in map(_without_rigid_joint, link.laws):
             match law:
                 case Spring():
                     self._respond(link, law.K, 0)
@@ -122,9 +133,6 @@ class StateSpace:
     def _add_maxwell(self, link: Link, law: Maxwell) -> None:
         if _is_absent(law):
             return  # no damping, no force, no state
-        if isinstance(law.K, float) and math.isinf(law.K):  # a rigid joint has no stroke of its own
-            self._respond(link, law.c, len(self._masses))
-            return
         stroke, rate = self.size, law.K / law.c
         self.strokes = (*self.strokes, (link, law))
         self._respond(link, law.K, 0)
@@ -141,32 +149,52 @@ class StateSpace:
     @cached_property
     def _rows(self) -> dict[str, tuple[Row, Row, str]]:
         """The rows of C and D of every output, and its unit."""
-        n = len(self.coordinates)
-        units = {x: mass.unit for x, mass in self._masses.items()}
-        named = list(enumerate(self.coordinates))
-        rows: dict[str, tuple[Row, Row, str]] = {x: ({i: 1}, {}, units[x]) for i, x in named}
-        rows |= {velocity(x): ({n + i: 1}, {}, rate_unit(units[x])) for i, x in named}
-        rows |= {acceleration(x): (*self._acceleration(n + i), rate_unit(units[x], 2)) for i, x in named}
+        points = [e for e in self.elements if isinstance(e, Point)]
+        moved = {x: ({x: 1}, mass.unit) for x, mass in self._masses.items()} | {e.name: (e.gap, e.unit) for e in points}
+        rows: dict[str, tuple[Row, Row, str]] = {x: (self._moved(u), {}, unit) for x, (u, unit) in moved.items()}
+        rows |= {velocity(x): (self._moved(u, rate=1), {}, rate_unit(unit)) for x, (u, unit) in moved.items()}
+        rows |= {acceleration(x): (*self._acceleration(u), rate_unit(unit, 2)) for x, (u, unit) in moved.items()}
         for contact in (e for e in self.elements if isinstance(e, WheelRailContact)):
             rows[f"lateral_force_{contact.y.removeprefix('y_w')}"] = (*self._lateral_force(contact), "N")
-        for k, (link, law) in enumerate(self.strokes):
-            rows |= self._damper(link, law, 2 * n + k)
+        for k, (link, law) in enumerate(self.strokes, 2 * len(self.coordinates)):
+            force = {j: times(law.K, g) for j, g in self._moved(link.displacement).items()} | {k: -law.K}
+            rows |= self._damper(link, force, stroke=k)
+        for link, damper in self._dampers():
+            if isinstance(damper, Dashpot) and not _is_absent(damper):
+                rate = self._moved(link.displacement, rate=1)
+                rows |= self._damper(link, {j: times(damper.c, g) for j, g in rate.items()})
         return rows
+
+    def _dampers(self) -> Iterator[tuple[Link, Dashpot | Maxwell]]:
+        """Yield the dampers of the links that have a name."""
+        for link in (e for e in self.elements if isinstance(e, Link) and e.name):
+            for law in map(_without_rigid_joint, link.laws):
+                if isinstance(law, (Dashpot, Maxwell)):
+                    yield link, law
 
     @cached_property
     def _absent(self) -> dict[str, tuple[Row, Row, str]]:
         """The same of dampers without damping, which are no outputs unless they are asked for."""
         rows: dict[str, tuple[Row, Row, str]] = {}
-        for link in (e for e in self.elements if isinstance(e, Link) and e.name):
-            for law in filter(_is_absent, link.maxwell):
-                rows |= self._damper(link, law)
+        for link, law in self._dampers():
+            rows |= self._damper(link, {}) if _is_absent(law) else {}
         return rows
 
     def _row(self, output: str) -> tuple[Row, Row, str]:
         return self._rows[output] if output in self._rows else self._absent[output]
 
-    def _acceleration(self, row: int) -> tuple[Row, Row]:
-        of_states, of_inputs = ({j: x for (i, j), x in m.items() if i == row} for m in (self.A, self.B))
+    def _moved(self, displacement: Coefficients, rate: int = 0) -> Row:
+        """Return the row of C of a displacement, or of its rate."""
+        return {rate * len(self.coordinates) + self._place[x]: g for x, g in displacement.items()}
+
+    def _acceleration(self, displacement: Coefficients) -> tuple[Row, Row]:
+        of_states: Row = {}
+        of_inputs: Row = {}
+        for row, g in self._moved(displacement, rate=1).items():
+            for whole, matrix in ((of_states, self.A), (of_inputs, self.B)):
+                for (i, j), x in matrix.items():
+                    if i == row:
+                        whole[j] = plus(whole.get(j, 0), times(g, x))
         return of_states, of_inputs
 
     def _lateral_force(self, contact: WheelRailContact) -> tuple[Row, Row]:
@@ -180,22 +208,15 @@ class StateSpace:
         d = {self._input[name]: force for (row, name), force in contact.inputs().items() if row == contact.y}
         return c, d
 
-    def _damper(self, link: Link, law: Maxwell, stroke: int | None = None) -> dict[str, tuple[Row, Row, str]]:
-        """Return force and stroke of each damper, and, where a link stands for several, the force of all of them.
-
-        Without a stroke there is no force.
-        """
-        name, displacement = link.own_name, {self._place[x]: g for x, g in link.displacement.items()}
-        force: Row = {}
-        if stroke is not None:
-            force = {j: times(law.K, g) for j, g in displacement.items()} | {stroke: -law.K}
+    def _damper(self, link: Link, force: Row, stroke: int | None = None) -> dict[str, tuple[Row, Row, str]]:
+        """Return force and stroke of each damper and, where a link stands for several, the force of all of them."""
         each: Row = {j: x / link.pieces for j, x in force.items()} if link.pieces > 1 else force
-        rows: dict[str, tuple[Row, Row, str]] = {of_damper(name, "force"): (each, {}, "N")}
+        rows: dict[str, tuple[Row, Row, str]] = {of_damper(link.own_name, "force"): (each, {}, "N")}
         if stroke is not None:
-            rows[of_damper(name, "stroke")] = {stroke: 1}, {}, "m"
+            rows[of_damper(link.own_name, "stroke")] = {stroke: 1}, {}, "m"
         if link.pieces > 1:
-            rows[of_damper(name, "pair force")] = force, {}, "N"
-            rows[of_damper(name, "displacement")] = displacement, {}, "m"
+            rows[of_damper(link.own_name, "pair force")] = force, {}, "N"
+            rows[of_damper(link.own_name, "displacement")] = self._moved(link.displacement), {}, "m"
         return rows
 
     @property
@@ -237,9 +258,16 @@ class StateSpace:
         return C, {(i, j): x for i, (_, d, _) in enumerate(rows) for j, x in d.items()}
 
 
-def _is_absent(law: Maxwell) -> bool:
+def _is_absent(law: Dashpot | Maxwell) -> bool:
     """Return whether a damper is known to have no damping."""
     return isinstance(law.c, (int, float)) and law.c == 0
+
+
+def _without_rigid_joint(law: Law) -> Law:
+    """Return a damper with a joint that is known to be rigid as what it is: a dashpot."""
+    if isinstance(law, Maxwell) and isinstance(law.K, float) and math.isinf(law.K):
+        return Dashpot(law.c)
+    return law
 
 
 def _acts_on(owner: Mass | Link) -> Sequence[str]:

@@ -8,11 +8,11 @@ from typing import Any, Self
 from yawdesign.problem import Problem
 from yawdesign.problem.cases import Case
 from yawdesign.problem.conditions import Condition, conditions
-from yawdesign.problem.parameters import CAR_BODY, parameter_keys
+from yawdesign.problem.parameters import CAR_BODY, bogie_keys, parameter_keys
 from yawdesign.problem.table import key_of
 from yawdesign.vehicle.catalogue import CATALOGUE, OVERTURNING, Parameters, elements
 from yawdesign.vehicle.elements import Element, Link, Mass, Single, folded, physical
-from yawdesign.vehicle.motions import Motion, motions
+from yawdesign.vehicle.motions import Motion, motions, polynomials
 from yawdesign.vehicle.polynomials import Number, Polynomial, product, scale_variable
 from yawdesign.vehicle.state_space import StateSpace
 
@@ -118,9 +118,7 @@ def _sources(model: Model) -> dict[str, frozenset[str]]:
 @lru_cache
 def _joints(model: Model) -> dict[str, str]:
     laws: list[Any] = [law for link in _traced(model).physical if isinstance(link, Link) for law in link.maxwell]
-    # A primary damper brings its arm, which is in both of its numbers.
-    numbers = [(law.c.difference(law.K), law.K.difference(law.c)) for law in laws]
-    return {damping: stiffness for c, K in numbers for damping in c for stiffness in K}
+    return {damping: stiffness for law in laws for damping in law.c for stiffness in law.K}
 
 
 @lru_cache
@@ -129,9 +127,16 @@ def _coordinates(model: Model) -> dict[str, str]:
 
 
 @lru_cache
+def families() -> tuple[tuple[str, ...], ...]:
+    """Return the coordinates that a bogie of the catalogue may have, and those of a car body on two of them."""
+    bodies: tuple[tuple[str, ...], ...] = (), tuple(CAR_BODY)
+    models = [[Model(kind, parameters=(*bogie_keys(kind), *body, "v")) for kind in CATALOGUE] for body in bodies]
+    return tuple(tuple(dict.fromkeys(x for model in family for x in model.coordinates)) for family in models)
+
+
 def known_coordinates() -> tuple[str, ...]:
     """Return the coordinates at each end of all vehicles in the catalogue."""
-    return tuple(dict.fromkeys(name for kind in CATALOGUE for name in Model(kind).coordinates))
+    return tuple(dict.fromkeys(name for family in families() for name in family))
 
 
 class Vehicle:
@@ -216,6 +221,14 @@ class Vehicle:
     def motions(self) -> tuple[Motion, ...]:
         """Its independent motions, the coupled one, which the yaw dampers reach, first."""
         return motions(self.folded)
+
+    @cached_property
+    def polynomials(self) -> Mapping[str, Polynomial]:
+        """Characteristic polynomial of each motion at the vehicle's own C_s, by its name, lowest power of s first.
+
+        At one C_s this is half the work of `motions` for a vehicle with car body.
+        """
+        return polynomials(self.folded)
 
     @property
     def coupled(self) -> Motion:

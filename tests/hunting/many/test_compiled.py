@@ -13,6 +13,7 @@ import pytest
 
 from yawdesign import __version__
 from yawdesign.hunting.many import compiled, library_cache, tape
+from yawdesign.hunting.many.recording import record
 from yawdesign.hunting.many.tape import Tape
 
 VALUES = {"x": np.arange(1.0, 5.0), "y": 2.0}
@@ -37,7 +38,7 @@ def forget():
 def is_compiled():
     """Compute something, check it, and return whether compiled code did it."""
     x, y = ca.SX.sym("x"), ca.SX.sym("y")
-    one = Tape(ca.Function("f", [x, y], [ca.vertcat(x + y, x * y)], ["x", "y"], ["out"]))
+    one = Tape(record(ca.Function("f", [x, y], [ca.vertcat(x + y, x * y)], ["x", "y"], ["out"])))
     assert one(VALUES).tolist() == [[3.0, 4.0, 5.0, 6.0], [2.0, 4.0, 6.0, 8.0]]
     return one._fast is not None
 
@@ -268,7 +269,7 @@ def test_a_library_with_the_right_digest_that_does_not_load_is_removed(library, 
 
 
 def test_what_another_process_has_kept_meanwhile_is_used(library, monkeypatch):
-    monkeypatch.setattr(library_cache, "find", lambda key: None)
+    monkeypatch.setattr(library_cache, "find", lambda key, suffix: None)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert is_compiled()

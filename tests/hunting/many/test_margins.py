@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import yawdesign as yd
 from yawdesign.hunting.eigenvalues import MARGINS
 from yawdesign.hunting.many import margins
 from yawdesign.hunting.many.parameter_sets import ParameterSets
@@ -166,3 +167,85 @@ def test_more_than_one_pair_of_unstable_roots(table1):
     value, passed = margins.margins(sets.part(chosen), "damping_ratio", ("C_s",))
     assert passed.all()
     assert value == pytest.approx(MARGINS["damping_ratio"](s[chosen]), rel=1e-6)
+
+
+BODY = {"M_c": 34500.0, "J_c": 1.521e6, "I_c": 124304.0, "l_c": 9.5, "h_s": 0.852, "h_t": 0.97, "K_2z": 610e3}
+BODY |= {"C_2z": 9800.0}
+
+
+@pytest.fixture(scope="module", params=["power", "trailer"])
+def vehicles(request):
+    """Return random vehicles with a car body on two bogies."""
+    one = Model(request.param)
+    p = yd.table1().bogie.parameters()
+    values = {name: float(x) for name, x in p.items() if name in one.parameters} | BODY | {"v": 300 / 3.6}
+    model = Model(request.param, parameters=(*one.parameters, *BODY))
+    return drawn(values, model, 300, seed=8, spread=1.3)
+
+
+@pytest.mark.parametrize("pairs", [0, 1, 2])
+@pytest.mark.parametrize("objective", OBJECTIVES)
+def test_margins_of_vehicles(vehicles, objective, pairs):
+    value, passed = margins.margins(vehicles, objective, ("C_s",), pairs)
+    expected = without_worst(vehicles, objective, pairs)
+    assert np.mean(passed) > 0.99
+    assert value[passed] == pytest.approx(expected[passed], rel=2e-8, abs=1e-9)
+
+
+@pytest.mark.parametrize("pairs", [0, 1, 2])
+@pytest.mark.parametrize("objective", OBJECTIVES)
+def test_levels_of_vehicles(vehicles, objective, pairs):
+    expected = without_worst(vehicles, objective, pairs)
+    is_stable = without_worst(vehicles, "decay_rate", 0) > 0
+    assert 0.2 < np.mean(is_stable) < 0.9
+    apart = [np.maximum(0.0, expected * factor) for factor in (1.001, 0.999)]
+    for level in (0.0, 0.5 if objective == "decay_rate" else 0.03, *apart):
+        exceeds, sure = margins.exceeds(vehicles, objective, level, ("C_s",), pairs)
+        assert np.mean(sure[is_stable]) > 0.9
+        assert np.array_equal(exceeds[sure], (expected > level)[sure])
+
+
+def without_worst(sets, objective, pairs):
+    """Return margins from eigenvalues sorted, with the worst pairs left out."""
+    s = margins.eigenvalues(sets, sets.model.motions[0])
+    if objective == "decay_rate":
+        return np.sort(-s.real, axis=1)[:, 2 * pairs]
+    upper = np.where(s.imag < 0, np.inf, -s.real / np.abs(s))
+    return np.sort(upper, axis=1)[:, pairs]
+
+
+@pytest.mark.parametrize("pairs", [1, 2])
+@pytest.mark.parametrize("objective", OBJECTIVES)
+def test_the_next_margin_over_several_motions(table1, objective, pairs):
+    sets = drawn(table1, Model(), 1000, seed=9, spread=1.5, low=2.0)
+    s = np.concatenate([margins.eigenvalues(sets, motion) for motion in sets.model.motions], axis=1)
+    each = -s.real if objective == "decay_rate" else np.where(s.imag < 0, np.inf, -s.real / np.abs(s))
+    rank = pairs * (2 if objective == "decay_rate" else 1)
+    expected = np.sort(each, axis=1)[:, rank]
+    assert np.mean(expected != np.sort(each[:, :-2], axis=1)[:, rank]) > 0.01, "the motors' yaw is among them"
+    value, passed = margins.margins(sets, objective, MOTORS, pairs)
+    assert np.mean(passed) > 0.99
+    assert value[passed] == pytest.approx(expected[passed], rel=1e-6, abs=1e-8)
+    exceeds, sure = margins.exceeds(sets, objective, 0.02, MOTORS, pairs)
+    assert np.mean(sure[s.real.max(axis=1) < 0]) > 0.95
+    assert np.array_equal(exceeds[sure], (expected > 0.02)[sure])
+
+
+def test_a_pair_that_is_unstable_and_its_conjugate_are_not_taken_for_two(table1):
+    # The ray at level zeta has beyond it the conjugate of a root damped less than -zeta: two roots, but one pair.
+    sets = drawn(table1, Model(), 3000, seed=10, spread=2.0)
+    s = margins.eigenvalues(sets, sets.model.motions[0])
+    worst = np.min(-s.real / np.abs(s), axis=1)
+    doubtful = (np.sum(s.real > 0, axis=1) == 2) & (worst < -0.05)
+    chosen = sets.part(np.flatnonzero(doubtful))
+    assert chosen.size > 10
+    exceeds, sure = margins.exceeds(chosen, "damping_ratio", 0.01, ("C_s",), 1)
+    expected = np.sort(np.where(s.imag < 0, np.inf, -s.real / np.abs(s)), axis=1)[doubtful, 1] > 0.01
+    assert np.array_equal(exceeds[sure], expected[sure])
+    assert not sure[expected].any()
+
+
+@pytest.mark.parametrize("objective", OBJECTIVES)
+def test_more_pairs_than_there_are(table1, objective):
+    sets = ParameterSets(Model(), {**table1, "C_s": 1e6}, 1)
+    assert margins.exceeds(sets, objective, 0.01, ("C_s",), 30)[0].all()

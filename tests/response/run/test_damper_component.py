@@ -8,6 +8,7 @@ import pytest
 import yawdesign as yd
 from yawdesign.hunting.eigenvalues import motion_eigenvalues
 from yawdesign.response.run.damper_component import dynamic_stiffness
+from yawdesign.vehicle.elements import Maxwell
 from yawdesign.vehicle.vehicle import Vehicle
 
 PROBLEM = yd.table1(equations="as-printed").replace(C_s="1 046 770 N s/m")
@@ -16,7 +17,7 @@ PROBLEM = yd.table1(equations="as-printed").replace(C_s="1 046 770 N s/m")
 def test_dynamic_stiffness_by_hand():
     K, c, f = 40e6, 1_046_770.0, 2.5
     Z = 1 / (1 / K + 1 / (c * 2j * math.pi * f))
-    found = dynamic_stiffness(K, c, f)
+    found = dynamic_stiffness(Maxwell(K, c), f)
     assert found.stiffness == pytest.approx(abs(Z))
     assert found.phase == pytest.approx(cmath.phase(Z))
     assert found.loss_factor == pytest.approx(Z.imag / Z.real)
@@ -26,7 +27,7 @@ def test_dynamic_stiffness_by_hand():
 
 def test_at_the_corner_both_give_way_alike():
     damper = yd.damper_component(PROBLEM, duration=5)
-    at = dynamic_stiffness(damper.K_ds, damper.C_s, damper.corner_frequency)
+    at = dynamic_stiffness(Maxwell(damper.K_ds, damper.C_s), damper.corner_frequency)
     assert at.phase == pytest.approx(math.pi / 4)
     assert at.stiffness == pytest.approx(damper.K_ds / math.sqrt(2))
 

@@ -1,10 +1,13 @@
 """Stationary root mean squares: integral over the spectrum, Lyapunov equation, and a long run."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.linalg import expm, solve_continuous_lyapunov
 
 import yawdesign as yd
+from yawdesign.problem.parameters import CarBody
 from yawdesign.response.run.system import system_at
 from yawdesign.response.track.spectra import SPECTRA
 
@@ -27,22 +30,29 @@ def filters(which, v):
 
 
 def by_lyapunov(system, which):
-    """Return the root mean square of all states under noise that comes to the rear wheelset a lag later.
+    """Return the root mean square of all states under noise that comes to each wheelset with its lag.
 
-    With two copies of the filter, one driven by w(t), one by w(t - lag):
-    A P + P A' + B1 B1' + B2 B2' + e^(A lag) B1 B2' + B2 B1' e^(A' lag) = 0.
+    With a copy of the filter for each wheelset, driven by w(t - lag): A P + P A' + sum of Bk Bk' + sum over all pairs
+    of e^(A (lag l - lag k)) Bk Bl' and its transpose, k the earlier one, is 0.
     """
     a, b, c = filters(which, system.v)
+    lags = system.wheelsets.lags
     n, m = len(system.A), len(a)
-    k = ["alignment", "cross_level"].index(which)
-    A = np.zeros((n + 2 * m, n + 2 * m))
+    column = ["alignment", "cross_level"].index(which)
+    A = np.zeros((n + len(lags) * m, n + len(lags) * m))
     A[:n, :n] = system.A
-    A[:n, n : n + m], A[:n, n + m :] = np.outer(system.B[:, k], c), np.outer(system.B[:, k + 2], c)
-    A[n : n + m, n : n + m] = A[n + m :, n + m :] = a
-    B1, B2 = np.zeros((2, n + 2 * m, 1))
-    B1[n : n + m, 0] = B2[n + m :, 0] = b
-    cross = expm(A * system.wheelsets.lags[1]) @ B1 @ B2.T
-    P = solve_continuous_lyapunov(A, -(B1 @ B1.T + B2 @ B2.T + cross + cross.T))
+    B = np.zeros((len(lags), len(A), 1))
+    for k in range(len(lags)):
+        own = slice(n + k * m, n + (k + 1) * m)
+        A[:n, own] = np.outer(system.B[:, column + 2 * k], c)
+        A[own, own] = a
+        B[k, own, 0] = b
+    source = sum(Bk @ Bk.T for Bk in B)
+    for k, earlier in enumerate(lags):
+        for l in range(k + 1, len(lags)):  # noqa: E741
+            cross = expm(A * (lags[l] - earlier)) @ B[k] @ B[l].T
+            source = source + cross + cross.T
+    P = solve_continuous_lyapunov(A, -source)
     return np.sqrt(np.diag(P)[:n])
 
 
@@ -55,6 +65,20 @@ def test_spectrum_and_lyapunov(kmh, which):
     expected = by_lyapunov(system, which)
     for k, name in enumerate(system.coordinates):
         assert rms[name] == pytest.approx(expected[k], rel=1e-4)
+
+
+@pytest.mark.parametrize("which", ["alignment", "cross_level"])
+def test_spectrum_and_lyapunov_of_four_wheelsets(which):
+    body = CarBody(M_c=34500, J_c=1.521e6, I_c=124304, l_c=9.5, h_s=0.852, h_t=0.97, K_2z=610e3, C_2z=9800)
+    problem = replace(yd.table1().replace(C_s="1 MN s/m"), car_body=body)
+    system = system_at(problem, problem.speeds[0])
+    assert system.wheelsets.lags == pytest.approx(np.array([0, 2.5, 19, 21.5]) / system.v)
+    whole = yd.RandomTrack(SPECTRA["german-low"], yd.Band(1e-5, 1e4))
+    rms = yd.stationary_response(problem, whole).rms_of[which]
+    expected = by_lyapunov(system, which)
+    for name, size in zip(system.space.states, expected, strict=True):
+        if name in rms:
+            assert rms[name] == pytest.approx(size, rel=1e-3), name
 
 
 @pytest.mark.slow

@@ -11,8 +11,9 @@ from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from yawdesign.exports.described_vehicle import in_words, short_name
 from yawdesign.exports.equations_of_motion import equations_of_motion, motion_source
-from yawdesign.exports.fmu.description import IDENTIFIER, build_description, header, model_description
+from yawdesign.exports.fmu.description import build_description, header, model_description
 from yawdesign.exports.fmu.variables import variables
 from yawdesign.hunting.many.c_compiler import compilers, run, why_none
 from yawdesign.hunting.verdict import given_damping
@@ -44,10 +45,10 @@ class Fmu(Result):
 
 
 def write_fmu(problem: Problem, path: str | Path, *, replace: bool = False) -> Fmu:
-    """Write the linear lateral motion of a problem's bogie as an FMU (FMI 3, model exchange).
+    """Write the linear lateral motion of a problem's vehicle as an FMU (FMI 3, model exchange).
 
-    Every symbol of Table I, `C_s` and the speed ``v`` are tunable parameters; the track under both wheelsets is the
-    input. The FMU holds a library for this machine, if there is a C compiler, and in any case the C code.
+    Every parameter of bogie and car body and the speed ``v`` are tunable parameters; the track under each wheelset is
+    the input. The FMU holds a library for this machine, if there is a C compiler, and in any case the C code.
 
     Parameters
     ----------
@@ -79,17 +80,17 @@ def write_fmu(problem: Problem, path: str | Path, *, replace: bool = False) -> F
     if path.suffix != ".fmu":
         raise ProblemError(f"{path.name} is not the name of an FMU: it must end in .fmu")
     refuse_existing(path, replace)
-    texts = _texts(problem)
+    name = f"yawdesign_{short_name(Model.of(problem))}"
+    texts = _texts(problem, name)
     library, message = _library(texts)
-    place = f"binaries/{platform_name()}/{IDENTIFIER}{library_suffix()}"
+    place = f"binaries/{platform_name()}/{name}{library_suffix()}"
     write_whole(path, _archive({**texts, **({place: library} if library else {})}), replace=replace)
     return Fmu(str(path), platform_name() if library else None, message)
 
 
-def _texts(problem: Problem) -> dict[str, bytes]:
+def _texts(problem: Problem, name: str) -> dict[str, bytes]:
     """Return the files of the FMU, but for the library."""
-    p = problem.bogie.parameters()
-    vehicle = Model.of(problem).at(p, C_s=given_damping(problem), v=max(problem.speeds))
+    vehicle = Model.of(problem).at(problem.parameters(), C_s=given_damping(problem), v=max(problem.speeds))
     motion = equations_of_motion(vehicle)
     table = variables(motion, vehicle.p)
     source, sizes = motion_source(motion)
@@ -97,19 +98,20 @@ def _texts(problem: Problem) -> dict[str, bytes]:
 
     def texts(token: str) -> dict[str, str]:
         return {
-            "modelDescription.xml": model_description(table, token=token, title=_title(problem)),
-            "sources/buildDescription.xml": build_description(),
+            "modelDescription.xml": model_description(table, name=name, token=token, title=_title(problem)),
+            "sources/buildDescription.xml": build_description(name),
             "sources/model.h": header(table, token=token, sizes=sizes),
             "sources/motion.c": source,
             "sources/fmi3.c": frame,
         }
 
     token = uuid.uuid5(uuid.NAMESPACE_OID, "".join(texts("").values()))
-    return {name: text.encode() for name, text in texts(f"{{{token}}}").items()}
+    return {file: text.encode() for file, text in texts(f"{{{token}}}").items()}
 
 
 def _title(problem: Problem) -> str:
-    text = f"Lateral motion of a {problem.bogie.kind} bogie ({problem.equations} equations), linear, in SI units"
+    kind = ", ".join((f"{problem.equations} equations", *in_words(problem)))
+    text = f"Lateral motion of a {problem.bogie.kind} bogie ({kind}), linear, in SI units"
     return f"{problem.title}. {text}" if problem.title else text
 
 
@@ -118,7 +120,7 @@ def _library(texts: Mapping[str, bytes]) -> tuple[bytes, str]:
     with TemporaryDirectory() as folder:
         for name, text in texts.items():
             Path(folder, Path(name).name).write_bytes(text)
-        library = Path(folder, IDENTIFIER)
+        library = Path(folder, "library")
         try:
             compile_library(Path(folder, "fmi3.c"), library)
         except CannotCompileError as reason:

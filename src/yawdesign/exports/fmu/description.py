@@ -7,32 +7,32 @@ from yawdesign import __version__
 from yawdesign.exports.fmu.variables import FmuVariable
 from yawdesign.problem.units import parse_unit
 
-IDENTIFIER = "yawdesign_bogie"
 
-
-def model_description(table: Sequence[FmuVariable], *, token: str, title: str) -> str:
+def model_description(table: Sequence[FmuVariable], *, name: str, token: str, title: str) -> str:
     """Return modelDescription.xml.
 
     Parameters
     ----------
     table : sequence of FmuVariable
         All variables, the time last.
+    name : str
+        Of the model and its library.
     token : str
         Instantiation token; the library knows the same.
     title : str
-        What this bogie is.
+        What this vehicle is.
     """
     root = ElementTree.Element(
         "fmiModelDescription",
         fmiVersion="3.0",
-        modelName=IDENTIFIER,
+        modelName=name,
         instantiationToken=token,
         description=title,
         generationTool=f"yawdesign {__version__}",
         variableNamingConvention="structured",
     )
     flags = ("canGetAndSetFMUState", "canSerializeFMUState", "providesDirectionalDerivatives")
-    ElementTree.SubElement(root, "ModelExchange", {"modelIdentifier": IDENTIFIER, **dict.fromkeys(flags, "true")})
+    ElementTree.SubElement(root, "ModelExchange", {"modelIdentifier": name, **dict.fromkeys(flags, "true")})
     _add_units(root, table)
     categories = ElementTree.SubElement(root, "LogCategories")
     ElementTree.SubElement(categories, "Category", name="logStatusError", description="What was refused, and why")
@@ -42,10 +42,10 @@ def model_description(table: Sequence[FmuVariable], *, token: str, title: str) -
     return _written(root)
 
 
-def build_description() -> str:
-    """Return sources/buildDescription.xml."""
+def build_description(name: str) -> str:
+    """Return sources/buildDescription.xml for a model of this name."""
     root = ElementTree.Element("fmiBuildDescription", fmiVersion="3.0")
-    configuration = ElementTree.SubElement(root, "BuildConfiguration", modelIdentifier=IDENTIFIER)
+    configuration = ElementTree.SubElement(root, "BuildConfiguration", modelIdentifier=name)
     files = ElementTree.SubElement(configuration, "SourceFileSet", language="C99")
     ElementTree.SubElement(files, "SourceFile", name="fmi3.c")
     return _written(root)

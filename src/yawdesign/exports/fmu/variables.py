@@ -8,7 +8,8 @@ from yawdesign.exports.equations_of_motion import LEAST_DAMPING, EquationsOfMoti
 from yawdesign.problem import PARAMETERS
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import Parameter
-from yawdesign.vehicle.elements import Link, Mass, WheelRailContact
+from yawdesign.vehicle.elements import Link, Mass, WheelRailContact, parted
+from yawdesign.vehicle.motions import BOGIES
 from yawdesign.vehicle.signals import DIRECTIONS, ENDS, acceleration, of_damper, rate_unit, velocity
 from yawdesign.vehicle.state_space import StateSpace
 
@@ -132,7 +133,13 @@ MOVED = {"m": "displacement", "rad": "angle"}
 
 def signal_meanings(system: StateSpace) -> dict[str, str]:
     """Return what inputs, states and outputs are, by their names."""
-    bodies = {e.coordinate: f"the {_at_end(e.body, e.coordinate)}" for e in system.elements if isinstance(e, Mass)}
+    masses = [e for e in system.elements if isinstance(e, Mass)]
+    two_bogies = any(len(parted(mass.coordinate)[1]) == len("12") for mass in masses)
+
+    def at_end(part: str, name: str) -> str:
+        return _at_end(part, name, two_bogies=two_bogies)
+
+    bodies = {mass.coordinate: f"the {at_end(mass.body, mass.coordinate)}" for mass in masses}
     meanings: dict[str, str] = {}
     for element in system.elements:
         match element:
@@ -140,14 +147,19 @@ def signal_meanings(system: StateSpace) -> dict[str, str]:
                 meanings |= _of_mass(element, bodies[element.coordinate])
             case WheelRailContact():
                 meanings |= _of_track(element, bodies[element.y])
-            case Link() if element.maxwell:
-                meanings |= _of_dampers(element)
+            case Link() if element.name:
+                kind = parted(element.name)[0].strip()
+                each, all_ = (at_end(word, element.name) for word in (kind, f"{kind}s"))
+                meanings |= _of_dampers(element, each, all_ if element.pieces > 1 else each)
     return meanings
 
 
-def _at_end(part: str, name: str) -> str:
-    """Return what a part is called that stands at the end with whose number a name ends."""
-    return f"{ENDS[name[-1]]} {part}" if name[-1] in ENDS else part
+def _at_end(part: str, name: str, *, two_bogies: bool) -> str:
+    """Return what a part is called that stands at the ends with whose numbers a name ends, the outer one first."""
+    ends = parted(name)[1]
+    bogie, end = (ends[:1], ends[1:]) if two_bogies else ("", ends)
+    whose = f" of the {BOGIES[bogie]}" if bogie else ""
+    return f"{ENDS[end]} {part}{whose}" if end else f"{part}{whose}"
 
 
 def _of_mass(mass: Mass, body: str) -> Iterator[Meaning]:
@@ -163,9 +175,7 @@ def _of_track(contact: WheelRailContact, wheelset: str) -> Iterator[Meaning]:
     yield contact.cross_level, f"cross-level angle of the track under {wheelset}"
 
 
-def _of_dampers(link: Link) -> Iterator[Meaning]:
-    damper = _at_end(link.name.rstrip(" 12"), link.name)
-    several = f"{damper}s" if link.pieces > 1 else damper
+def _of_dampers(link: Link, damper: str, several: str) -> Iterator[Meaning]:
     yield of_damper(link.name, "stroke"), f"stroke of the dashpot of the {several}, without its joints"
     if link.pieces == 1:
         yield of_damper(link.name, "force"), f"force of the {damper}"

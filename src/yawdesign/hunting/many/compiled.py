@@ -3,6 +3,7 @@
 import contextlib
 import ctypes
 import hashlib
+import logging
 import os
 import platform
 import sys
@@ -18,6 +19,7 @@ import numpy as np
 from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.many import library_cache
 from yawdesign.hunting.many.c_compiler import compilers, run, why_none
+from yawdesign.hunting.many.c_statements import Statements
 
 Run = Callable[[Sequence[Float], Float, int, int], None]
 
@@ -25,9 +27,12 @@ WIDTH = 8  # points in a vector
 SWITCH = "YAWDESIGN_CC"  # environment variable that names a compiler; empty: none
 # Contraction to fused multiply-add would change the last bits. No warnings: nobody would see them.
 FLAGS = ("-O1", "-std=gnu99", "-shared", "-fPIC", "-ffp-contract=off", "-w")
-TIME_LIMIT = 20.0  # seconds for a compilation, which takes half a second
+TIME_LIMIT = 20.0  # seconds for a compilation, which takes half a second for a single bogie
+TIME_PER_CHARACTER = 1e-4  # seconds at most for a longer one; it takes about 2e-6, 2e-5 without wide vectors
+LONG = 300_000  # characters of which the compilation is announced
 ANSWER_LIMIT = 5.0  # seconds for a compiler to tell its version
 
+logger = logging.getLogger(__name__)
 _hanging: set[str] = set()  # compilers that did not finish; they are not asked again
 
 FRAME = """\
@@ -50,10 +55,12 @@ static inline void store(double *to, vector value, long long point, long long en
   else for (long long k = point; k < end; ++k) to[k] = value[k - point];
 }
 
+%(functions)s
 void run(const double *const *in, const long long *stride, double *out, long long points, long long start,
          long long end) {
+%(once)s
   for (long long point = start; point < end; point += %(width)d) {
-%(body)s
+%(each)s
   }
 }
 """
@@ -70,13 +77,17 @@ class _Compiler(NamedTuple):
         return self.command[0]
 
 
-def load(body: str) -> Run | None:
+def load(code: Statements, *, compiling: bool = True) -> Run | None:
     """Return compiled operations as a function of (inputs, outputs, first point, last point but one).
+
+    A compilation of seconds is announced to the logger of this module.
 
     Parameters
     ----------
-    body : str
-        C statements between ``load`` and ``store``.
+    code : Statements
+        The operations in C.
+    compiling : bool
+        Whether they may be compiled; otherwise they are only looked for among what was kept.
 
     Returns
     -------
@@ -87,13 +98,18 @@ def load(body: str) -> Run | None:
     if compiler is None or compiler.path in _hanging:
         return None
     try:
-        return _callable(_library(FRAME % {"width": WIDTH, "body": body}, compiler))
+        library = _library(_source(code), compiler, compiling)
+        return _callable(library) if library else None
     except TimeoutError as error:
         _hanging.add(compiler.path)
         note(str(error))
     except (OSError, RuntimeError, ValueError, AttributeError) as error:
         note(f"{compiler.path}: {_told(error)}")
     return None
+
+
+def _source(code: Statements) -> str:
+    return FRAME % {"width": WIDTH, "functions": code.functions, "once": code.once, "each": code.each}
 
 
 @cache
@@ -127,19 +143,23 @@ def _callable(library: ctypes.CDLL) -> Run:
     return run
 
 
-def _library(source: str, compiler: _Compiler) -> ctypes.CDLL:
-    """Return the shared library of a source, compiled if this machine has not compiled it yet."""
+def _library(source: str, compiler: _Compiler, compiling: bool) -> ctypes.CDLL | None:
+    """Return the shared library of a source, compiled if this machine has not compiled it yet and may do so."""
     key = hashlib.sha256(
         "\n".join([source, *FLAGS, *compiler.command, compiler.version, _processor()]).encode()
     ).hexdigest()[:20]
     with contextlib.suppress(OSError):
-        if kept := library_cache.find(key):
+        if kept := library_cache.find(key, library_cache.LIBRARY):
             return _loaded(kept)
+    if not compiling:
+        return None
+    if len(source) > LONG:
+        logger.info("compiling the equations for many points, once on this machine: some seconds")
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         library = _compile(source, compiler, Path(folder))
         _try(library)
         try:
-            library = library_cache.keep(key, library.read_bytes())
+            library = library_cache.keep(key, library_cache.LIBRARY, library.read_bytes())
         except OSError as error:
             _not_kept(_told(error))
         return ctypes.CDLL(str(library))  # what is loaded stays so without its file
@@ -162,11 +182,12 @@ def _try(library: Path) -> None:
 
 
 def _compile(source: str, compiler: _Compiler, folder: Path) -> Path:
-    code, library = folder / "code.c", folder / f"code{library_cache.SUFFIX}"
+    code, library = folder / "code.c", folder / f"code{library_cache.LIBRARY}"
     code.write_text(source, encoding="ascii")
     command = [*compiler.command, *FLAGS, "-o", str(library), str(code)]
+    limit = max(TIME_LIMIT, TIME_PER_CHARACTER * len(source))
     for options in (["-march=native"], []):
-        done = run([*command, *options], TIME_LIMIT)
+        done = run([*command, *options], limit)
         if done.returncode == 0 and library.exists():
             return library
     raise RuntimeError(f"exit code {done.returncode}, {done.stderr.strip()[:200] or 'without a library'}")

@@ -5,18 +5,19 @@ zero, which lower the degree of the polynomials.
 """
 
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import lru_cache, reduce
 from itertools import pairwise
 from typing import Any
 
 import casadi as ca
 
+from yawdesign.hunting.many.kept_tapes import kept
+from yawdesign.hunting.many.recording import record
 from yawdesign.hunting.many.tape import Tape
 from yawdesign.hunting.routh import TIME_UNIT, quotient, routh_rows, sector_rows
-from yawdesign.vehicle.motions import Motion
+from yawdesign.vehicle.motions import COUPLED
 from yawdesign.vehicle.polynomials import (
-    Number,
     Polynomial,
     add,
     even_odd,
@@ -33,6 +34,10 @@ from yawdesign.vehicle.vehicle import Model, Vehicle
 # A leading entry of Routh's array that is left over from a subtraction of numbers this much larger is doubted. With 16
 # digits, 9 are then left. Of the million random bogies of benchmarks/sweep.py one is doubted, and none is wrong.
 LEFT_OVER = 1e-7
+# In a longer array, that of a vehicle with car body, errors have more rows to grow in. Of 2 450 levels each a millionth
+# of the margin away from it, 2 are then on the wrong side without a doubt; a hundred thousandth away, none.
+LEFT_OVER_OF_MANY = 1e-6
+MANY_ROWS = 30
 
 Zeros = frozenset[str]
 Rows = Sequence[Sequence[Any]]
@@ -42,6 +47,7 @@ NO_ZEROS: Zeros = frozenset()
 
 
 @lru_cache
+@kept
 def verdicts(model: Model, zeros: Zeros = NO_ZEROS) -> Tape:
     """Return the tape of verdicts.
 
@@ -59,30 +65,46 @@ def verdicts(model: Model, zeros: Zeros = NO_ZEROS) -> Tape:
         on the way to that answer is doubtful.
     """
     vehicle = _vehicle(model, zeros)
-    return _tape(vehicle.p, _verdict(routh_rows(_scaled(motion, vehicle.C_s)) for motion in vehicle.motions))
+    return _tape(vehicle.p, _verdict(routh_rows(p) for p in _polynomials(vehicle)))
 
 
 @lru_cache
+@kept
 def others_stable(model: Model, zeros: Zeros = NO_ZEROS) -> Tape | None:
     """Return the tape of verdicts on the motions that no yaw damper reaches; None where it reaches all."""
     vehicle = _vehicle(model, zeros)
-    others = [motion for motion in vehicle.motions if not motion.varied]
-    return _tape(vehicle.p, _verdict(routh_rows(_scaled(motion, 0)) for motion in others)) if others else None
+    others = [motion.name for motion in model.motions if not motion.varied]
+    return _tape(vehicle.p, _verdict(routh_rows(p) for p in _polynomials(vehicle, others))) if others else None
 
 
 @lru_cache
+@kept
 def exceeding(model: Model, objective: str, names: Names, zeros: Zeros = NO_ZEROS) -> Tape:
     """Return the tape of verdicts whether the margins of some motions exceed a level.
 
     Inputs: parameters, C_s, v, and those of `beyond`. Outputs as those of `verdicts`.
     """
     vehicle, place = _vehicle(model, zeros), _place(objective)
-    chosen = [motion for motion in vehicle.motions if motion.name in names]
-    rows = [_beyond(objective, _scaled(motion, vehicle.C_s), place) for motion in chosen]
-    return _tape({**vehicle.p, **place}, _verdict(rows))
+    return _tape({**vehicle.p, **place}, _verdict(_beyond(objective, p, place) for p in _polynomials(vehicle, names)))
 
 
 @lru_cache
+@kept
+def roots_beyond(model: Model, objective: str, names: Names, zeros: Zeros = NO_ZEROS) -> Tape:
+    """Return the tape that counts the roots of some motions beyond a line.
+
+    Inputs: parameters, C_s, v, and those of `beyond`. Outputs: the count over all of these motions, the number of
+    doubtful steps in it, and the same two for the right half-plane where the line is another one (``damping_ratio``).
+    """
+    vehicle, place = _vehicle(model, zeros), _place(objective)
+    chosen = _polynomials(vehicle, names)
+    found = _counts(_beyond(objective, p, place) for p in chosen)
+    unstable = _counts(map(routh_rows, chosen)) if objective == "damping_ratio" else []
+    return _tape({**vehicle.p, **place}, [*found, *unstable])
+
+
+@lru_cache
+@kept
 def beyond(objective: str, size: int, backwards: bool = False) -> Tape:
     """Return the tape that counts the roots beyond a line, of a polynomial with so many coefficients a0, a1, ...
 
@@ -102,11 +124,12 @@ def beyond(objective: str, size: int, backwards: bool = False) -> Tape:
 
 
 @lru_cache
+@kept
 def coefficients(model: Model, name: str, zeros: Zeros = NO_ZEROS) -> Tape:
     """Return the tape of the polynomial of a motion in s / (100 rad/s), lowest power first."""
     vehicle = _vehicle(model, zeros)
-    (motion,) = (motion for motion in vehicle.motions if motion.name == name)
-    return _tape(vehicle.p, _scaled(motion, vehicle.C_s))
+    (p,) = _polynomials(vehicle, [name])
+    return _tape(vehicle.p, p)
 
 
 @lru_cache
@@ -123,6 +146,7 @@ def boundaries(model: Model, zeros: Zeros = NO_ZEROS) -> tuple[Tape, tuple[int, 
 
 
 @lru_cache
+@kept
 def unstable_roots(model: Model, zeros: Zeros = NO_ZEROS) -> Tape:
     """Return the tape that counts the unstable roots of the coupled motion.
 
@@ -130,11 +154,13 @@ def unstable_roots(model: Model, zeros: Zeros = NO_ZEROS) -> Tape:
     Routh's column: a quotient of Hurwitz minors that changes its sign where a pair of roots crosses the imaginary axis.
     """
     vehicle = _vehicle(model, zeros)
-    rows = routh_rows(_scaled(vehicle.coupled, vehicle.C_s))
+    (p,) = _polynomials(vehicle, [COUPLED])
+    rows = routh_rows(p)
     return _tape(vehicle.p, [*_count(rows), rows[-2][0]])
 
 
 @lru_cache
+@kept
 def counts(size: int) -> Tape:
     """Return the tape that counts the unstable roots of a polynomial with so many coefficients a0, a1, ...
 
@@ -154,9 +180,10 @@ def _vehicle(model: Model, zeros: Zeros) -> Vehicle:
     return model.at(_symbols(model.parameters) | dict.fromkeys(zeros, ca.SX(0)))
 
 
-def _scaled(motion: Motion, C_s: Number) -> Polynomial:
-    """Return the polynomial of a motion in s / (100 rad/s)."""
-    return scale_variable(_without_zeros(motion.polynomial(C_s)), TIME_UNIT)
+def _polynomials(vehicle: Vehicle, names: Collection[str] | None = None) -> list[Polynomial]:
+    """Return the polynomials of motions, of all if none are named, in s / (100 rad/s)."""
+    chosen = (p for name, p in vehicle.polynomials.items() if names is None or name in names)
+    return [scale_variable(_without_zeros(p), TIME_UNIT) for p in chosen]
 
 
 def _without_zeros(p: Polynomial) -> Polynomial:
@@ -193,7 +220,12 @@ def _sure(rows: Rows, k: int) -> Any:
     size, entry = _left_over_from(rows, k), ca.fabs(ca.SX(rows[k][0]))
     if size is None and k:
         return entry < sys.float_info.max
-    return LEFT_OVER * (0 if size is None else size) < entry
+    return _least(rows) * (0 if size is None else size) < entry
+
+
+def _least(rows: Rows) -> float:
+    """Return which share of the numbers of which an entry is the difference it must have not to be doubted."""
+    return LEFT_OVER_OF_MANY if len(rows) > MANY_ROWS else LEFT_OVER
 
 
 def _count(rows: Rows) -> list[Any]:
@@ -201,8 +233,14 @@ def _count(rows: Rows) -> list[Any]:
     negative = [ca.SX(row[0]) < 0 for row in rows]
     changes = [(a - b) ** 2 for a, b in pairwise(negative)]
     sizes = [_left_over_from(rows, k) for k in range(len(rows))]
-    sure = [LEFT_OVER * (0 if x is None else x) < ca.fabs(row[0]) for x, row in zip(sizes, rows, strict=True)]
+    least = _least(rows)
+    sure = [least * (0 if x is None else x) < ca.fabs(row[0]) for x, row in zip(sizes, rows, strict=True)]
     return [reduce(plus, changes), len(rows) - reduce(plus, sure)]
+
+
+def _counts(arrays: Iterable[Rows]) -> list[Any]:
+    """Return the sums of `_count` over some arrays."""
+    return [reduce(plus, column) for column in zip(*map(_count, arrays), strict=True)]
 
 
 def _left_over_from(rows: Rows, k: int) -> Any:
@@ -217,7 +255,7 @@ def _left_over_from(rows: Rows, k: int) -> Any:
     if sum(map(_is_there, (linear, *others))) < 2:
         return None
     if _is_there(others[0]):
-        others.append(times(upper[1], lower[1]) / lower[0])
+        others.append(times(upper[1], lower[1] / lower[0]))  # a product of two coefficients might overflow
     return reduce(plus, [ca.fabs(x) for x in others if _is_there(x)])
 
 
@@ -229,4 +267,4 @@ def _is_there(x: Any) -> bool:
 def _tape(inputs: Mapping[str, Any], outputs: Iterable[Any]) -> Tape:
     results = ca.vertcat(*map(ca.SX, outputs))
     used = [name for name, x in inputs.items() if x.is_symbolic() and ca.depends_on(results, x)]
-    return Tape(ca.Function("tape", [inputs[name] for name in used], [results], used, ["results"]))
+    return Tape(record(ca.Function("tape", [inputs[name] for name in used], [results], used, ["results"])))

@@ -1,6 +1,7 @@
-"""Compiled libraries in the user's cache folder: nobody else can have put them there, and damaged ones are thrown away.
+"""Compiled libraries and recorded tapes in the user's cache folder.
 
-The name of a library ends with the digest of its content: whatever is shorter, longer or other does not fit its name.
+Nobody else can have put them there, and damaged ones are thrown away: the name of a file ends with the digest of its
+content, so whatever is shorter, longer or other does not fit its name.
 """
 
 import os
@@ -12,12 +13,13 @@ from pathlib import Path
 from yawdesign import __version__
 from yawdesign.problem.whole_files import write_whole
 
-SUFFIX = ".dll" if sys.platform == "win32" else ".so"
+LIBRARY = ".dll" if sys.platform == "win32" else ".so"
+TAPE = ".tape"
 OTHERS = stat.S_IWGRP | stat.S_IWOTH
 
 
 def cache_folder() -> Path:
-    """Return the folder in which this version keeps what it compiled.
+    """Return the folder in which this version keeps what it compiled and recorded.
 
     Raises
     ------
@@ -43,31 +45,31 @@ def _base() -> Path | None:
         return None
 
 
-def find(key: str) -> Path | None:
-    """Return the library that was kept under a key; those that do not fit are removed.
+def find(key: str, suffix: str) -> Path | None:
+    """Return the file that was kept under a key; those that do not fit are removed.
 
     Raises
     ------
     OSError
         If the folder cannot be used.
     """
-    for path in _own_folder().glob(f"{key}-*{SUFFIX}"):
+    for path in _own_folder().glob(f"{key}-*{suffix}"):
         if _fits(path):
             return path
         path.unlink()
     return None
 
 
-def keep(key: str, content: bytes) -> Path:
-    """Write a library and return where it is.
+def keep(key: str, suffix: str, content: bytes) -> Path:
+    """Write a file and return where it is.
 
     Raises
     ------
     OSError
         If it cannot be kept.
     """
-    path = _own_folder() / f"{key}-{sha256(content).hexdigest()}{SUFFIX}"
-    if path.exists() and _fits(path):  # another process has compiled the same
+    path = _own_folder() / f"{key}-{sha256(content).hexdigest()}{suffix}"
+    if path.exists() and _fits(path):  # another process has made the same
         return path
     if path.is_dir():
         raise OSError(f"{path} is a folder")
@@ -98,8 +100,9 @@ def _own_folder() -> Path:
 def _close(folder: Path) -> None:
     """Keep others out from now on, and remove what they may have put there."""
     folder.chmod(0o700)
-    for path in folder.glob(f"*{SUFFIX}"):
-        path.unlink()
+    for suffix in (LIBRARY, TAPE):
+        for path in folder.glob(f"*{suffix}"):
+            path.unlink()
 
 
 def _mine(state: os.stat_result) -> bool:

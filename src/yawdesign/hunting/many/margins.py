@@ -60,7 +60,7 @@ def others_stable(sets: ParameterSets) -> tuple[Bools, Bools]:
 
 
 def exceeds(
-    sets: ParameterSets, objective: str, level: Float | float, variables: Collection[str]
+    sets: ParameterSets, objective: str, level: Float | float, variables: Collection[str], pairs: int = 0
 ) -> tuple[Bools, Bools]:
     """Return whether the margin of every vehicle exceeds a level, and whether that is sure.
 
@@ -74,13 +74,35 @@ def exceeds(
         Decay rate [1/s] or damping ratio [-]; a ratio below zero counts as zero.
     variables : collection of str
         Design variables; they decide which motions count in the margin.
+    pairs : int
+        So many pairs of roots, those that are worst, need not exceed the level; see `margins`.
     """
-    tape = counts.exceeding(sets.model, objective, sets.model.movable(variables), sets.zeros)
-    if objective == "decay_rate":
-        return _asked(tape, sets, _line(objective, np.asarray(level) / TIME_UNIT))
-    level = np.asarray(level, dtype=float)
-    yes, sure = _asked(tape, sets, _line(objective, np.clip(level, 0.0, 1.0)))
-    return yes & (level < 1), sure | (level >= 1)
+    names, level = sets.model.movable(variables), np.asarray(level, dtype=float)
+    decay = objective == "decay_rate"
+    line = _line(objective, level / TIME_UNIT if decay else np.clip(level, 0.0, 1.0))
+    if pairs:
+        tape = counts.roots_beyond(sets.model, objective, names, sets.zeros)
+        found = np.broadcast_to(tape({**sets.values, **line}), (tape.size, sets.size))
+        yes, sure = _at_most(_rank(objective, pairs), found)
+    else:
+        yes, sure = _asked(counts.exceeding(sets.model, objective, names, sets.zeros), sets, line)
+    return (yes, sure) if decay else (yes & (level < 1), sure | (level >= 1))
+
+
+def _rank(objective: str, pairs: int) -> int:
+    """Return how many roots are left out with so many pairs: for a damping ratio one of each pair is counted."""
+    return 2 * pairs if objective == "decay_rate" else pairs
+
+
+def _at_most(most: int, found: Float) -> tuple[Bools, Bools]:
+    """Return whether at most so many roots lie beyond a line, and whether that is sure; see `counts.roots_beyond`."""
+    count, doubts, *right = found
+    yes, sure = count <= most, doubts == 0
+    if right:
+        # The line counts the conjugates of unstable roots too, if they lie beyond it: up to twice as many.
+        unstable, more_doubts = right
+        sure &= yes | (count > 2 * most) | ((unstable == 0) & (more_doubts == 0))
+    return yes, sure
 
 
 def _asked(tape: Tape, sets: ParameterSets, more: Mapping[str, Any] = MappingProxyType({})) -> tuple[Bools, Bools]:
@@ -95,7 +117,7 @@ def _line(objective: str, level: Float) -> dict[str, Float]:
     return {"cosine": -level, "sine": np.sqrt((1 - level) * (1 + level))}
 
 
-def margins(sets: ParameterSets, objective: str, variables: Collection[str]) -> tuple[Float, Bools]:
+def margins(sets: ParameterSets, objective: str, variables: Collection[str], pairs: int = 0) -> tuple[Float, Bools]:
     """Return the margin of every vehicle, and whether it passed its checks.
 
     Parameters
@@ -106,27 +128,48 @@ def margins(sets: ParameterSets, objective: str, variables: Collection[str]) -> 
         The margin: decay rate [1/s] or damping ratio [-], negative where a motion is unstable.
     variables : collection of str
         Design variables; they decide which motions count in the margin.
+    pairs : int
+        So many pairs of roots, those that are worst, are left out: of decay rates the least ``2 pairs``, where a real
+        root is one; of damping ratios the least ``pairs`` of the upper half-plane, to which a real root belongs.
     """
-    movable = sets.model.movable(variables)
-    found = [_of_motion(sets, objective, motion) for motion in sets.model.motions if motion.name in movable]
-    return np.min([value for value, _ in found], axis=0), np.all([passed for _, passed in found], axis=0)
+    movable, rank = sets.model.movable(variables), _rank(objective, pairs)
+    chosen = [motion for motion in sets.model.motions if motion.name in movable]
+    # The next margin of all motions may be any of the first ones of each.
+    ranks = range(rank + 1) if len(chosen) > 1 else [rank]
+    found = [_of_motion(sets, objective, motion, k) for motion in chosen for k in ranks]
+    value = np.sort([value for value, _ in found], axis=0)[rank if len(chosen) > 1 else 0]
+    return value, np.all([passed for _, passed in found], axis=0)
 
 
-def _of_motion(sets: ParameterSets, objective: str, motion: Motion) -> tuple[Float, Bools]:
+def _of_motion(sets: ParameterSets, objective: str, motion: Motion, rank: int) -> tuple[Float, Bools]:
+    """Return the margin of a motion without its so many worst roots, infinite if there are no others."""
     p = counts.coefficients(sets.model, motion.name, sets.zeros)(sets.values)
     p = np.broadcast_to(p, (len(p), sets.size))
     with np.errstate(all="ignore"):
         if len(p) == 3:
-            value = MARGINS[objective](_both_roots(p) * TIME_UNIT)
-            return value, np.isfinite(value)
-        s, found = _slowest(p) if objective == "decay_rate" else _least_damped(p)
+            both = _both_roots(p) * TIME_UNIT
+            return _ranked(objective, both, rank), np.asarray(np.isfinite(both).all(axis=1))
+        s, found = _slowest(p, rank) if objective == "decay_rate" else _least_damped(p, rank)
         value = MARGINS[objective](s[:, None] * TIME_UNIT)
         left = np.flatnonzero(~found)
         if len(left):
             every = eigenvalues(sets.part(left), motion)
-            value[left] = MARGINS[objective](every)
+            value[left] = _ranked(objective, every, rank)
             found[left] = _agrees(p[:, left], every)
     return value, found
+
+
+def _each(objective: str, s: Complex) -> Float:
+    """Return the margin of every root; of damping ratios infinity for a root of the lower half-plane."""
+    value = MARGINS[objective](s[..., None])
+    return value if objective == "decay_rate" else np.where(s.imag < 0, np.inf, value)
+
+
+def _ranked(objective: str, s: Complex, rank: int) -> Float:
+    """Return the margin of some roots, the so many worst ones left out: the last axis; NaN if one of them is none."""
+    value = np.sort(_each(objective, s), axis=-1)
+    last = value[..., rank] if rank < s.shape[-1] else np.full(s.shape[:-1], np.inf)
+    return np.where(np.isnan(s).any(axis=-1), np.nan, last)
 
 
 def _both_roots(p: Float) -> Complex:
@@ -136,25 +179,36 @@ def _both_roots(p: Float) -> Complex:
     return np.stack([larger / m, np.where(larger == 0, 0, k / larger)], axis=-1)
 
 
-def _slowest(p: Float) -> tuple[Complex, Bools]:
-    """Return the root of every polynomial that is farthest to the right, and where it is known to be that."""
-    count, _, _ = _counted("decay_rate", p, np.zeros(p.shape[1]))
-    return _found("decay_rate", p, np.where(count == 0, 1.0, -1.0))
+def _slowest(p: Float, rank: int = 0) -> tuple[Complex, Bools]:
+    """Return the root of every polynomial that is farthest to the right, and where it is known to be that.
+
+    With a rank so many roots are farther to the right.
+    """
+    count, sure, _ = _counted("decay_rate", p, np.zeros(p.shape[1]))
+    left = count <= rank
+    inside = np.where(left & sure, count, -np.inf) if rank else np.zeros(p.shape[1])
+    return _found("decay_rate", p, np.where(left, 1.0, -1.0), rank, inside)
 
 
-def _least_damped(p: Float) -> tuple[Complex, Bools]:
-    """Return the root of every polynomial with the least damping ratio, and where it is known to be that."""
+def _least_damped(p: Float, rank: int = 0) -> tuple[Complex, Bools]:
+    """Return the root of every polynomial with the least damping ratio, and where it is known to be that.
+
+    With a rank so many roots of the upper half-plane have less damping; then no unstable polynomial's is known.
+    """
     count, sure, _ = _counted("decay_rate", p, np.zeros(p.shape[1]))
     s, found = np.zeros(p.shape[1], dtype=complex), np.zeros(p.shape[1], dtype=bool)
     stable, unstable = (np.flatnonzero(sure & chosen) for chosen in (count == 0, (count > 0) & (count <= 2)))
-    s[stable], found[stable] = _found("damping_ratio", p[:, stable], np.ones(len(stable)))
+    s[stable], found[stable] = _found("damping_ratio", p[:, stable], np.ones(len(stable)), rank, np.zeros(len(stable)))
+    if rank:
+        return s, found
     # No line tells unstable roots by their ratio; one pair, or one real root, is also the one farthest to the right.
-    s[unstable], found[unstable] = _found("decay_rate", p[:, unstable], np.full(len(unstable), -1.0))
+    alone = np.zeros(len(unstable))
+    s[unstable], found[unstable] = _found("decay_rate", p[:, unstable], alone - 1.0, 0, alone)
     return s, found
 
 
 class _Search(NamedTuple):
-    """Polynomials whose root is looked for: beyond an outer line lie one or more roots, beyond an inner one none.
+    """Polynomials whose root is looked for: it lies beyond an outer line and not beyond an inner one.
 
     Parameters
     ----------
@@ -164,8 +218,8 @@ class _Search(NamedTuple):
         Coefficients.
     sign, inner, outer : array, shape (n,)
         Sign of the levels at which the lines stand, and the powers of ten of their magnitudes.
-    alone : array, shape (n,)
-        How many roots surely lie beyond a line, the least number that was met: one or a pair, or too many.
+    inside, beyond : array, shape (n,)
+        How many roots surely lie beyond inner lines, the largest number that was met, and beyond outer ones, the least.
     start : array, shape (n,)
         Where the root may be.
     """
@@ -175,25 +229,38 @@ class _Search(NamedTuple):
     sign: Any
     inner: Any
     outer: Any
-    alone: Any
+    inside: Any
+    beyond: Any
     start: Any
 
     def part(self, chosen: Any) -> "_Search":
         return _Search(*(x[..., chosen] for x in self))
 
 
-def _found(objective: str, p: Float, sign: Float) -> tuple[Complex, Bools]:
-    """Return the root that the margin belongs to, which has a known sign, and where it is known to be that root."""
+def _found(objective: str, p: Float, sign: Float, rank: int, inside: Float) -> tuple[Complex, Bools]:
+    """Return the root that the margin belongs to, and where it is known to be that root.
+
+    Parameters
+    ----------
+    objective, p
+        Which margin, of which polynomials.
+    sign : array, shape (n,)
+        The sign of the margin.
+    rank : int
+        How many roots are worse.
+    inside : array, shape (n,)
+        How many roots surely lie beyond the first inner line.
+    """
     n, (low, high) = p.shape[1], POWERS[objective]
     s, found = np.full(n, np.nan + 0j), np.zeros(n, dtype=bool)
     inner, outer = np.where(sign > 0, low, high), np.where(sign > 0, high, low)
-    search = _Search(np.arange(n), p, sign, inner, outer, np.full(n, np.inf), s)
+    search = _Search(np.arange(n), p, sign, inner, outer, inside, np.full(n, np.inf), s)
     for trial in range(TRIALS + 1):
         if trial < TRIALS:
             for _ in range(HALVINGS):
-                search = _halved(objective, search, backwards=trial % 2 == BACKWARDS[objective])
+                search = _halved(objective, search, rank, backwards=trial % 2 == BACKWARDS[objective])
         else:
-            search = search._replace(start=_neighbours(objective, search.p))
+            search = search._replace(start=_neighbours(objective, search.p, rank))
         root, error = _newton(search.p, search.start)
         right = _is_right(objective, search, root, error)
         s[search.owner[right]], found[search.owner[right]] = root[right], True
@@ -203,38 +270,39 @@ def _found(objective: str, p: Float, sign: Float) -> tuple[Complex, Bools]:
     return s, found
 
 
-def _halved(objective: str, search: _Search, *, backwards: bool) -> _Search:
+def _halved(objective: str, search: _Search, rank: int, *, backwards: bool) -> _Search:
     """Return the search with a line in the middle, and where a root crosses that line."""
     middle = (search.inner + search.outer) / 2
     level = search.sign * 10**middle
     count, sure, crossing = _counted(objective, search.p, level, backwards)
-    none = count == 0
+    none = count <= rank
     if objective == "decay_rate":
-        start = -level + 1j * np.where(count == 1, 0.0, np.sqrt(np.maximum(crossing, 0.0)))
+        start = -level + 1j * np.where(count - search.inside == 1, 0.0, np.sqrt(np.maximum(crossing, 0.0)))
     else:
         line = _line(objective, level)
         start = crossing * (line["cosine"] + 1j * line["sine"])
     return search._replace(
         inner=np.where(none, middle, search.inner),
         outer=np.where(none, search.outer, middle),
-        alone=np.where(none | ~sure, search.alone, np.minimum(count, search.alone)),
+        inside=np.where(none & sure, np.maximum(count, search.inside), search.inside),
+        beyond=np.where(none | ~sure, search.beyond, np.minimum(count, search.beyond)),
         start=start,
     )
 
 
 def _is_right(objective: str, search: _Search, s: Complex, error: Float) -> Bools:
-    """Return whether a root is accurate, lies between both lines, and alone or with its conjugate beyond the outer."""
-    margin = MARGINS[objective](s[:, None])
+    """Return whether a root is accurate and lies between both lines, alone or with its conjugate."""
+    margin, between = MARGINS[objective](s[:, None]), search.beyond - search.inside
     if objective == "decay_rate":
         real, pair = s.imag == 0, np.abs(s.imag) > 2 * error
-        alone = (real & (search.alone == 1)) | (pair & (search.alone == 2))
+        alone = (real & (between == 1)) | (pair & (between == 2))
     else:
-        error, alone = error / np.abs(s), (s.imag > 0) & (search.alone == 1)
+        error, alone = error / np.abs(s), (s.imag > 0) & (between == 1)
     inner, outer = search.sign * 10**search.inner, search.sign * 10**search.outer
     return np.asarray(alone & (inner < margin) & (margin < outer) & (error < ACCURATE * np.abs(margin)))
 
 
-def _neighbours(objective: str, p: Float) -> Complex:
+def _neighbours(objective: str, p: Float, rank: int) -> Complex:
     """Return for each polynomial the root that the margin of one near it belongs to: in a sweep it is similar."""
     chosen = p[:, ::APART]
     companion = np.zeros((chosen.shape[1], len(p) - 1, len(p) - 1))
@@ -242,8 +310,8 @@ def _neighbours(objective: str, p: Float) -> Complex:
     companion[:, :, -1] = -(chosen[:-1] / chosen[-1]).T
     companion[~np.isfinite(companion)] = 0.0
     roots = np.asarray(np.linalg.eigvals(companion), dtype=complex)
-    least = np.argmin(MARGINS[objective](roots[:, :, None]), axis=1)
-    near = np.take_along_axis(roots, least[:, None], axis=1)[:, 0]
+    worst = np.argsort(_each(objective, roots), axis=1)[:, rank]
+    near = np.take_along_axis(roots, worst[:, None], axis=1)[:, 0]
     return np.repeat(near.real + 1j * np.abs(near.imag), APART)[: p.shape[1]]
 
 

@@ -1,4 +1,4 @@
-"""A CasADi Function as a straight line of array operations, for many points at once.
+"""A straight line of operations on arrays, for many points at once.
 
 CasADi's own virtual machine goes through the graph once for every point. Here every operation of the graph runs on a
 block of points that stays in the processor's cache: with NumPy, or, where a C compiler is at hand, in a C function
@@ -8,54 +8,29 @@ whose scalars are vectors of points. Both do the same operations in the same ord
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from threading import Lock, local
-from typing import Any, NamedTuple
+from typing import Any
 
 import casadi as ca
 import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.many import compiled
+from yawdesign.hunting.many.c_statements import Statements
 from yawdesign.hunting.many.compiled import Run
+from yawdesign.hunting.many.recording import Operation, Recording
 
 BLOCK = 8192  # points; long enough that NumPy's calls cost little, and a row still fits the innermost caches
-MANY = 100_000  # points after which a compilation, about half a second, has paid
-
-BINARY = {
-    ca.OP_ADD: (np.add, "{0} + {1}"),
-    ca.OP_SUB: (np.subtract, "{0} - {1}"),
-    ca.OP_MUL: (np.multiply, "{0} * {1}"),
-    ca.OP_DIV: (np.divide, "{0} / {1}"),
-    ca.OP_LT: (np.less, "LESS({0}, {1})"),
-}
-UNARY: dict[int, tuple[Callable[..., Any], str]] = {
-    ca.OP_NEG: (np.negative, "-{0}"),
-    ca.OP_FABS: (np.absolute, "SIZE({0})"),
-    ca.OP_INV: (lambda x, *out: np.divide(1.0, x, *out), "(ZERO + 1.0) / {0}"),
-}
-# Operations that CasADi writes with one operand and that are one with two.
-DOUBLED = {ca.OP_SQ: ca.OP_MUL, ca.OP_TWICE: ca.OP_ADD}
-
-
-class Operation(NamedTuple):
-    """One operation of the graph: CasADi's code for it, the register of the result, those of its operands."""
-
-    code: int
-    target: int
-    sources: tuple[int, ...]
-
-    @property
-    def kinds(self) -> tuple[Callable[..., Any], str]:
-        """What it is in NumPy and in C."""
-        return (BINARY if len(self.sources) == 2 else UNARY)[self.code]
+MANY = 100_000  # points after which a compilation, about half a second for a single bogie, has paid
+LOOK = 0.2  # of these points: after so many one that was kept is looked for
 
 
 class Tape:
-    """The operations of a CasADi Function of scalars.
+    """The operations of a recording, run on many points.
 
     Parameters
     ----------
-    function : casadi.Function
-        Made of SX, of which every input is a scalar.
+    recording : Recording
+        What is to be done.
 
     Attributes
     ----------
@@ -65,47 +40,13 @@ class Tape:
         Number of values that come out for each point.
     """
 
-    def __init__(self, function: ca.Function) -> None:
-        self.inputs = tuple(function.name_in())
-        self.size = function.nnz_out()
-        self.constants: dict[int, float] = {}
-        self.steps: list[Operation] = []
-        self.results = [-1] * self.size
-        self._lock, self._asked, self._tried = Lock(), 0, False
+    def __init__(self, recording: Recording) -> None:
+        self.recording = recording
+        self.inputs, self.constants, self.steps, self.results = recording
+        self.size = len(self.results)
+        self._lock, self._asked, self._tried = Lock(), 0, 0
         self._fast: Run | None = None
         self._own = local()
-        self._record(function)
-
-    def _record(self, function: ca.Function) -> None:
-        """Read the instructions, giving every value a register of its own; what is there twice is computed once."""
-        offsets = np.cumsum([0, *(function.nnz_out(k) for k in range(function.n_out()))])
-        known: dict[tuple[Any, ...], int] = {}
-        place: dict[int, int] = {}
-        for k in range(function.n_instructions()):
-            operation, into = function.instruction_id(k), function.instruction_output(k)
-            sources = function.instruction_input(k)
-            if operation == ca.OP_OUTPUT:
-                self.results[offsets[into[0]] + into[1]] = place[sources[0]]
-            elif operation == ca.OP_INPUT:
-                place[into[0]] = sources[0]
-            else:
-                operands = tuple(place[i] for i in sources)
-                constant = function.instruction_constant(k) if operation == ca.OP_CONST else None
-                key = operation, repr(constant), operands  # -0.0 is another constant than 0.0
-                if key not in known:
-                    known[key] = count = len(self.inputs) + len(known)
-                    if constant is not None:
-                        self.constants[count] = constant
-                    else:
-                        self._add(operation, count, operands)
-                place[into[0]] = known[key]
-
-    def _add(self, operation: int, target: int, sources: tuple[int, ...]) -> None:
-        if operation in DOUBLED:
-            operation, sources = DOUBLED[operation], (sources[0], sources[0])
-        if operation not in BINARY and operation not in UNARY:
-            raise NotImplementedError(f"no array operation for CasADi's operation {operation}")
-        self.steps.append(Operation(operation, target, sources))
 
     def __call__(self, values: Mapping[str, Any]) -> Float:
         """Return the outputs at many points.
@@ -127,12 +68,15 @@ class Tape:
         return out
 
     def _runner(self, points: int) -> Run:
-        """Return how to run: compiled, once so many points were asked for that compiling has paid."""
+        """Return how to run: compiled, once so many points were asked for that this has paid."""
         with self._lock:
             self._asked += points
-            if self._asked >= MANY and not self._tried:
-                self._tried = True
-                run = compiled.load(self.source())
+            # The time of a compilation has a part that does not grow with the tape, the time of a point has none.
+            many = MANY * (0.4 + 1000 / max(1, len(self.steps)))
+            wanted = int(self._asked >= LOOK * many) + int(self._asked >= many)
+            if wanted > self._tried and not self._fast:
+                self._tried = wanted
+                run = compiled.load(self.source(), compiling=wanted == 2)
                 self._fast = run if run and self._agrees(run) else None
                 if run and not self._fast:
                     compiled.note("it does not give the numbers of NumPy")
@@ -147,15 +91,9 @@ class Tape:
         self._interpret(arguments, two, 0, 21)
         return np.array_equal(one, two, equal_nan=True)
 
-    def source(self) -> str:
+    def source(self) -> Statements:
         """Return the operations in C, on vectors of points."""
-        lines = [f"  const vector r{k} = load(in[{k}], stride[{k}], point, end);" for k in range(len(self.inputs))]
-        lines += [f"  const vector r{k} = ZERO + {_literal(x)};" for k, x in self.constants.items()]
-        for step in self.steps:
-            text = step.kinds[1].format(*(f"r{i}" for i in step.sources))
-            lines.append(f"  const vector r{step.target} = {text};")
-        lines += [f"  store(out + {k} * points, r{register}, point, end);" for k, register in enumerate(self.results)]
-        return "\n".join(lines)
+        return Statements(len(self.inputs), self.constants, self.steps, self.results)
 
     def _interpret(self, arguments: Sequence[Float], out: Float, start: int, end: int) -> None:
         """Run the operations with NumPy."""
@@ -233,7 +171,3 @@ def _is_logical(code: int, operands: Sequence[Any]) -> bool:
 def _as_numbers(function: Callable[..., Any], operands: Sequence[Any]) -> Callable[..., Any]:
     """Return the function such that it takes comparisons for numbers: NumPy's sum of two of them is one of them."""
     return partial(function, dtype=float) if any(x.dtype == bool for x in operands) else function
-
-
-def _literal(value: float) -> str:
-    return float(value).hex()

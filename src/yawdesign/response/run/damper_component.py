@@ -1,7 +1,9 @@
 """The yaw damper as something to order: its dynamic stiffness, and what it does in a run."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from math import atan2, pi
+from math import atan2, inf, pi
+from typing import Any
 
 import numpy as np
 
@@ -10,8 +12,9 @@ from yawdesign.problem.result import Result
 from yawdesign.response.run.frequency import outputs
 from yawdesign.response.run.run import Run
 from yawdesign.response.run.system import System
-from yawdesign.vehicle.elements import Maxwell
+from yawdesign.vehicle.elements import Law, Link, Maxwell
 from yawdesign.vehicle.polynomials import evaluate
+from yawdesign.vehicle.signals import of_damper
 from yawdesign.vehicle.vehicle import Vehicle
 
 RIGID = 1e4  # joints so many times as stiff as they are count as rigid
@@ -50,19 +53,21 @@ class DamperComponent(Result):
     """What to order for a chosen C_s. `Z` belongs to the pair of dampers, forces and strokes to each of the two.
 
     Z(s) = K_ds C_s s / (K_ds + C_s s) for the pair; each damper has half of C_s and stands between two joints of
-    stiffness K_ds.
+    stiffness K_ds. With rigid joints Z(s) = C_s s.
 
     Parameters
     ----------
+    name : str
+        "yaw damper", or which of two bogies has it: "yaw damper 1" of the leading one, "yaw damper 2".
     C_s, K_ds : float
         Damping of the pair [N s/m], and stiffness of a joint [N/m], which is also that of the pair's four in series
-        and parallel.
+        and parallel; infinite for rigid ones.
     C_each : float
         Damping of each damper, C_s / 2 [N s/m].
     force_at_rated_velocity : float
         Of each damper at 0.1 m/s [N]. A linear damper does not blow off.
     corner_frequency : float
-        K_ds / (2 pi C_s) [Hz]: above it the joints give way more than the damper.
+        K_ds / (2 pi C_s) [Hz]: above it the joints are displaced more than the damper.
     hunting_frequency : float or None
         Of the hunting, the mode that `yawdesign.modes` calls so [Hz].
     at_hunting : DynamicStiffness or None
@@ -80,9 +85,10 @@ class DamperComponent(Result):
     velocity_rms, velocity_peak : float
         Of each piston in the run [m/s].
     checked : bool
-        True if Z is also what force over displacement is in the frequency response of the bogie.
+        True if Z is also what force over displacement is in the frequency response of the vehicle.
     """
 
+    name: str
     C_s: float
     K_ds: float
     C_each: float
@@ -103,51 +109,62 @@ class DamperComponent(Result):
     checked: bool
 
 
-def component(system: System, run: Run) -> DamperComponent | None:
-    """Return the yaw damper of a bogie in a run; None if it has no damping."""
-    vehicle, C_s, K_ds = system.vehicle, system.C_s, float(system.vehicle.p["K_ds"])
-    if C_s == 0:
-        return None
-    each = C_s / 2
-    force_rms, force_peak = run.rms["yaw_damper_force"], run.peak["yaw_damper_force"]
+def components(system: System, run: Run) -> tuple[DamperComponent, ...]:
+    """Return the yaw dampers of a vehicle in a run, one for each bogie; those without damping are left out."""
+    links = [e for e in system.space.elements if isinstance(e, Link) and e.varied]
+    dampers: list[tuple[Link, Any]] = [(link, law) for link in links for law in link.laws]
+    rates = {"decay_rate": _coupled_decay_rate(system.vehicle), "decay_rate_rigid": _coupled_decay_rate(_rigid(system))}
+    return tuple(_component(system, run, link, law, rates) for link, law in dampers if law.c)
+
+
+def _component(system: System, run: Run, link: Link, law: Any, rates: Mapping[str, float]) -> DamperComponent:
+    C_s, K_ds = float(law.c), float(getattr(law, "K", inf))
+    each = C_s / link.pieces
+    force, displacement = of_damper(link.name, "force"), of_damper(link.name, "displacement")
+    stroke = of_damper(link.name, "stroke") if isinstance(law, Maxwell) else displacement
     return DamperComponent(
+        name=link.name,
         C_s=C_s,
         K_ds=K_ds,
         C_each=each,
         force_at_rated_velocity=each * RATED_VELOCITY,
         corner_frequency=K_ds / (2 * pi * C_s),
         hunting_frequency=run.frequency,
-        at_hunting=None if run.frequency is None else dynamic_stiffness(K_ds, C_s, run.frequency),
-        over_frequency=tuple(dynamic_stiffness(K_ds, C_s, f) for f in FREQUENCIES),
-        decay_rate=_coupled_decay_rate(vehicle),
-        decay_rate_rigid=_coupled_decay_rate(vehicle.replace(K_ds=K_ds * RIGID)),
+        at_hunting=None if run.frequency is None else dynamic_stiffness(law, run.frequency),
+        over_frequency=tuple(dynamic_stiffness(law, f) for f in FREQUENCIES),
+        **rates,
         speed=run.speed,
-        force_rms=force_rms,
-        force_peak=force_peak,
-        stroke_rms=run.rms["yaw_damper_stroke"],
-        stroke_peak=run.peak["yaw_damper_stroke"],
-        velocity_rms=force_rms / each,
-        velocity_peak=force_peak / each,
-        checked=_same_in_the_bogie(system, K_ds),
+        force_rms=run.rms[force],
+        force_peak=run.peak[force],
+        stroke_rms=run.rms[stroke],
+        stroke_peak=run.peak[stroke],
+        velocity_rms=run.rms[force] / each,
+        velocity_peak=run.peak[force] / each,
+        checked=_same_in_the_vehicle(system, link, law),
     )
+
+
+def _rigid(system: System) -> Vehicle:
+    """Return the vehicle with joints of the yaw dampers that are as good as rigid."""
+    p = system.vehicle.p
+    return system.vehicle.replace(**{name: K * RIGID for name, K in p.items() if name.rpartition(".")[2] == "K_ds"})
 
 
 def _coupled_decay_rate(vehicle: Vehicle) -> float:
     return float(decay_rate(motion_eigenvalues(vehicle, vehicle.model.motions[0])))
 
 
-def dynamic_stiffness(K_ds: float, C_s: float, frequency: float) -> DynamicStiffness:
-    """Return Z of the pair of dampers at a frequency [Hz]."""
+def dynamic_stiffness(law: Law, frequency: float) -> DynamicStiffness:
+    """Return Z of a pair of dampers with a given law at a frequency [Hz]."""
     omega = 2 * pi * frequency
-    law = Maxwell(K_ds, C_s)
     Z = complex(evaluate(law.numerator, 1j * omega) / evaluate(law.denominator, 1j * omega))
-    loss = Z.imag / Z.real if Z.real else float("inf")
+    loss = Z.imag / Z.real if Z.real else inf
     return DynamicStiffness(frequency, abs(Z), atan2(Z.imag, Z.real), loss, Z.imag / omega)
 
 
-def _same_in_the_bogie(system: System, K_ds: float) -> bool:
+def _same_in_the_vehicle(system: System, link: Link, law: Law) -> bool:
     omega = 2 * pi * np.array(FREQUENCIES)
     y = outputs(system, omega, system.wheelsets.harmonic(omega, "alignment"))
-    u, found = (np.abs(y[:, system.outputs[f"yaw_damper_{what}"]]) for what in ("displacement", "pair_force"))
-    expected = [dynamic_stiffness(K_ds, system.C_s, f).stiffness for f in FREQUENCIES] * u
+    u, found = (np.abs(y[:, system.outputs[of_damper(link.name, what)]]) for what in ("displacement", "pair force"))
+    expected = [dynamic_stiffness(law, f).stiffness for f in FREQUENCIES] * u
     return bool(np.allclose(found, expected, rtol=EXACT, atol=0.0))

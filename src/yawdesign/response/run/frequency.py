@@ -18,7 +18,7 @@ from yawdesign.response.track.lines import INPUTS, WAVELENGTH
 from yawdesign.vehicle.assembly import polynomial_matrix
 from yawdesign.vehicle.elements import WheelRailContact
 from yawdesign.vehicle.polynomials import evaluate
-from yawdesign.vehicle.vehicle import known_coordinates
+from yawdesign.vehicle.vehicle import families, known_coordinates
 
 MOST_WAVELENGTHS = 100_000  # about 1 GB
 BLOCK = 1000  # frequencies solved at once
@@ -29,8 +29,8 @@ EXACT = 1e-9  # largest relative difference of the two ways
 class FrequencyResponse(Result):
     """Complex amplitude of every coordinate on a harmonic track of amplitude 1 (1 m, or 1 rad of cross-level).
 
-    The time factor is exp(+j w t), the phase is zero where the front wheelset stands, and the rear wheelset sees the
-    track 2a/v later. Of an unstable bogie this is the motion that it would have if it did not grow.
+    The time factor is exp(+j w t), the phase is zero where the first wheelset stands, and each one behind it sees the
+    track later. Of an unstable vehicle this is the motion that it would have if it did not grow.
 
     Parameters
     ----------
@@ -45,8 +45,8 @@ class FrequencyResponse(Result):
     checked : bool
         True if state matrix and polynomial matrix give the same to 1e-9.
     amplitudes : mapping of str to complex or ndarray
-        By coordinate, per unit of the input: lateral ones such as ``y_b`` [m], yaw angles such as ``phi_b`` [rad]. Each
-        is an attribute of the result as well, ``result.y_b``; that of a motor is None in a trailer bogie.
+        By coordinate, per unit of the input: lateral ones such as ``y_b`` [m], angles such as ``phi_b`` [rad]. Each is
+        an attribute of the result as well, ``result.y_b``; what a vehicle does not have, such as a motor, is None.
     """
 
     wavelength: Any
@@ -64,9 +64,10 @@ class FrequencyResponse(Result):
         raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     def _entries(self) -> Mapping[str, Any]:
-        """Return its values by the keys of `to_dict`: those of all coordinates that a vehicle may have."""
+        """Return its values by the keys of `to_dict`: those of all coordinates that such a vehicle may have."""
         own = {name: value for name, value in super()._entries().items() if name != "amplitudes"}
-        return own | {name: self.amplitudes.get(name) for name in known_coordinates()}
+        like = next(names for names in families() if self.amplitudes.keys() <= set(names))
+        return own | {name: self.amplitudes.get(name) for name in like}
 
 
 def frequency_response(
@@ -76,7 +77,7 @@ def frequency_response(
     *,
     speed: Any = None,
 ) -> FrequencyResponse:
-    """Return how the bogie answers a harmonic track.
+    """Return how the vehicle answers a harmonic track.
 
     Parameters
     ----------

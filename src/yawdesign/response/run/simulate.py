@@ -1,6 +1,6 @@
-"""Runs of a problem's bogie over a track, at one speed or several."""
+"""Runs of a problem's vehicle over a track, at one speed or several."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,11 +11,12 @@ from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_choice, as_quantity, as_seed, as_several
-from yawdesign.response.run.damper_component import DamperComponent, component
+from yawdesign.response.run.damper_component import DamperComponent, components
 from yawdesign.response.run.run import Run, run
 from yawdesign.response.run.system import System, system_at
 from yawdesign.response.run.time_history import History, Plan, planned_clock
 from yawdesign.response.track.tracks import Band, as_track
+from yawdesign.vehicle.signals import BOGIES, first_looked_at
 from yawdesign.vehicle.vehicle import Model
 
 USUAL_OFFSET = 0.01  # [m]
@@ -25,13 +26,17 @@ STARTS = ("stationary", "rest", "offset")
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Simulation(Result):
-    """The bogie on a track: what was read from the runs, and their histories.
+    """The vehicle on a track: what was read from the runs, and their histories.
 
     Names of responses: the coordinates ``y_b, phi_b, y_w1, ...``, with ``_velocity`` and ``_acceleration``;
     ``lateral_force_1`` and ``_2``, what the rails do to each wheelset by gravity and creep; ``yaw_damper_force`` and
     ``yaw_damper_stroke`` of each yaw damper's piston, ``yaw_damper_displacement`` with its joints, and
     ``yaw_damper_pair_force`` of both together; ``lateral_damper_force_1``, ``lateral_damper_stroke_1``, ``..._2``, and
     likewise for the motors' dampers. The state space and the FMU use the same names.
+
+    Under a car body ``y_c, psi_c, th_c`` the number of the bogie comes first, 1 for the leading one: ``y_b1, y_w12,
+    lateral_force_21, yaw_damper_force_2, ...``; ``y_c1_acceleration`` and ``y_c2_acceleration`` are those of the car
+    body above the centres of both bogies, as high as its centre of mass.
 
     Parameters
     ----------
@@ -48,7 +53,9 @@ class Simulation(Result):
     rms, peak : mapping of str to float
         Root mean square and largest size of each response there, in SI.
     damper : DamperComponent or None
-        The yaw damper as a component, there; None if C_s is 0.
+        The yaw damper as a component, there, of two bogies that with the greater force; None if C_s is 0.
+    dampers : tuple of DamperComponent
+        The yaw dampers of both bogies, the leading one first; one of a bogie alone.
     runs : tuple of Run
         One for each speed.
     checked : bool
@@ -65,6 +72,7 @@ class Simulation(Result):
     rms: Mapping[str, float]
     peak: Mapping[str, float]
     damper: DamperComponent | None
+    dampers: tuple[DamperComponent, ...]
     runs: tuple[Run, ...]
     checked: bool
     histories: tuple[History, ...]
@@ -76,11 +84,17 @@ class Simulation(Result):
     def __repr__(self) -> str:
         head = f"Simulation on {self.track} with C_s = {self.C_s:.9g} N s/m"
         rows = (
-            f"  {3.6 * one.speed:.4g} km/h: y_b {1e3 * one.rms['y_b']:.4g} mm, phi_b {1e3 * one.rms['phi_b']:.4g} mrad "
-            f"(RMS), free motion {one.fitted_rate:+.4g} 1/s; {one.verdict}"
+            f"  {3.6 * one.speed:.4g} km/h: {', '.join(self._sizes(one))} (RMS), "
+            f"free motion {one.fitted_rate:+.4g} 1/s; {one.verdict}"
             for one in self.runs
         )
         return "\n".join([head, *rows])
+
+    def _sizes(self, one: Run) -> Iterator[str]:
+        for name in first_looked_at(one.rms):
+            unit = self.histories[0].unit(name)
+            factor, prefix = (1e3, "m") if unit in ("m", "rad") else (1.0, "")
+            yield f"{name} {factor * one.rms[name]:.4g} {prefix}{unit}"
 
 
 def simulate(
@@ -97,7 +111,7 @@ def simulate(
     seed: int | None = None,
     progress: Progress = lambda text, part: None,
 ) -> Simulation:
-    """Run a problem's bogie over a track.
+    """Run a problem's vehicle over a track: its bogie alone, or a car body on two of them.
 
     The time steps are exact for inputs that run straight from one instant to the next (first-order hold by the matrix
     exponential), and for harmonic tracks exact as they are.
@@ -182,7 +196,7 @@ def _simulation(problem: Problem, plan: Plan, speeds: Sequence[float], progress:
         runs.append(one)
         histories.append(history)
     worst, system = max(zip(runs, systems, strict=True), key=lambda both: both[0].spectral_abscissa)
-    damper = component(system, worst)
+    dampers = components(system, worst)
     return Simulation(
         track=plan.track.name,
         notes=plan.track.notes,
@@ -191,9 +205,10 @@ def _simulation(problem: Problem, plan: Plan, speeds: Sequence[float], progress:
         speed=worst.speed,
         rms=worst.rms,
         peak=worst.peak,
-        damper=damper,
+        damper=max(dampers, key=lambda damper: damper.force_rms, default=None),
+        dampers=dampers,
         runs=tuple(runs),
-        checked=all(one.checked for one in runs) and (damper is None or damper.checked),
+        checked=all(one.checked for one in runs) and all(damper.checked for damper in dampers),
         histories=tuple(histories),
     )
 
@@ -206,7 +221,7 @@ def _check_steps(systems: Sequence[System], plan: Plan) -> None:
 
 
 def response_names(problem: Problem) -> tuple[str, ...]:
-    """Return the names of all track inputs and responses of a problem's bogie, as in `History.values`.
+    """Return the names of all track inputs and responses of a problem's vehicle, as in `History.values`.
 
     Parameters
     ----------
@@ -217,13 +232,15 @@ def response_names(problem: Problem) -> tuple[str, ...]:
     return (*space.inputs, *space.outputs)
 
 
-def damper_component(problem: Problem, **options: Any) -> DamperComponent:
+def damper_component(problem: Problem, bogie: str = "", **options: Any) -> DamperComponent:
     """Return the yaw damper as a component to order, with what it does in a run.
 
     Parameters
     ----------
     problem : Problem
         With a value of ``C_s`` that is more than 0.
+    bogie : {"leading", "trailing"}, optional
+        Of a vehicle with a car body; that with the greater force if not given.
     **options
         Of `simulate`, for the run.
 
@@ -240,10 +257,16 @@ def damper_component(problem: Problem, **options: Any) -> DamperComponent:
     >>> damper.C_each, round(damper.at_hunting.stiffness / 1e6, 2)
     (523385.0, 15.44)
     """
-    damper = checked(simulate)(problem, **options).damper
-    if damper is None:
+    names = {f"yaw damper {end}": which for end, which in BOGIES.items()} if problem.car_body else {}
+    if bogie:
+        if not names:
+            raise ProblemError("bogie: there is one bogie alone: leave it out, or give the problem a car_body")
+        as_choice(bogie, tuple(names.values()))
+    found = checked(simulate)(problem, **options)
+    dampers = [damper for damper in found.dampers if not bogie or names[damper.name] == bogie]
+    if not dampers:
         raise ProblemError("bogie.C_s is 0: there is no yaw damper to order")
-    return damper
+    return max(dampers, key=lambda damper: damper.force_rms)
 
 
 def _band(band: Any) -> Band | None:

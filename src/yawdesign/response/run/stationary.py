@@ -11,6 +11,7 @@ from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
 from yawdesign.response.run.frequency import one_speed, outputs
+from yawdesign.response.run.ride_comfort import accelerations, horizontal_weight
 from yawdesign.response.run.system import System, system_at
 from yawdesign.response.track.lines import INPUTS
 from yawdesign.response.track.tracks import POINTS, WEIGHTS, RandomTrack, as_track
@@ -21,7 +22,7 @@ NEAR = 24  # cells on either side of a mode
 
 @dataclass(frozen=True, repr=False)
 class StationaryResponse(Result):
-    """Root mean square of every response on an endless random track.
+    """Root mean square of every response on a random track without an end.
 
     Parameters
     ----------
@@ -35,6 +36,9 @@ class StationaryResponse(Result):
         By response, in SI.
     rms_of : mapping of str to mapping
         The same, in SI, from "alignment" alone and from "cross_level" alone; the squares add up.
+    rms_weighted : mapping of str to float
+        Root mean square of the car body's lateral acceleration above each bogie, weighted by W_d of ISO 2631-1 [m/s^2];
+        empty without a car body.
     method : str
         How it was found.
     """
@@ -45,6 +49,7 @@ class StationaryResponse(Result):
     C_s: float
     rms: Mapping[str, float]
     rms_of: Mapping[str, Mapping[str, float]]
+    rms_weighted: Mapping[str, float]
     method: str
 
 
@@ -81,34 +86,37 @@ def stationary_response(problem: Problem, track: Any = "german-low", *, speed: A
     mistakes.report()
     system = system_at(problem, v)
     if not system.stable:
-        raise ProblemError(f"the bogie is unstable at {3.6 * system.v:.4g} km/h: there is no stationary motion")
-    rms_of = {which: np.sqrt(_mean_squares(system, road, which)) for which in INPUTS}
-    total = np.sqrt(sum(rms**2 for rms in rms_of.values()))
+        raise ProblemError(f"the vehicle is unstable at {3.6 * system.v:.4g} km/h: there is no stationary motion")
+    found = {which: _mean_squares(system, road, which) for which in INPUTS}
+    plain, weighted = np.sqrt(sum(found.values()))
     return StationaryResponse(
         track=road.name,
         band=str(road.band),
         speed=system.v,
         C_s=system.C_s,
-        rms=system.named(total),
-        rms_of={which: system.named(rms) for which, rms in rms_of.items()},
+        rms=system.named(plain),
+        rms_of={which: system.named(np.sqrt(squares[0])) for which, squares in found.items()},
+        rms_weighted={name: float(weighted[system.outputs[name]]) for name in accelerations(system)},
         method="integral over the spectrum",
     )
 
 
 def stationary_rms(system: System, track: RandomTrack) -> dict[str, float]:
-    """Return the stationary root mean square of every output of a stable bogie."""
-    return system.named(np.sqrt(sum(_mean_squares(system, track, which) for which in INPUTS)))
+    """Return the stationary root mean square of every output of a stable vehicle."""
+    return system.named(np.sqrt(sum(_mean_squares(system, track, which)[0] for which in INPUTS)))
 
 
 def _mean_squares(system: System, track: RandomTrack, which: str) -> Float:
+    """Return the mean squares of all outputs from one input, and with every output weighted by W_d, shape (2, m)."""
     if which not in track.spectrum.densities:
-        return np.zeros(len(system.outputs))
+        return np.zeros((2, len(system.outputs)))
     edges = _cells(system, *(2 * np.pi * f for f in track.band.hertz(system.v)))
     half = np.diff(edges) / 2
     omega = ((edges[1:] + edges[:-1]) / 2)[:, None] + half[:, None] * POINTS
     S = track.spectrum.density(which, omega.ravel() / system.v) / system.v
     H = outputs(system, omega.ravel(), system.wheelsets.harmonic(omega.ravel(), which))
-    return np.asarray((half[:, None] * WEIGHTS).ravel() * S @ np.abs(H) ** 2)
+    weights = np.array([np.ones(omega.size), np.abs(horizontal_weight(omega.ravel())) ** 2])
+    return np.asarray(weights * (half[:, None] * WEIGHTS).ravel() * S @ np.abs(H) ** 2)
 
 
 def _cells(system: System, low: float, high: float) -> Float:

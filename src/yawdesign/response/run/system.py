@@ -2,12 +2,14 @@
 
 from collections.abc import Mapping
 from functools import cached_property
+from typing import Any
 
 from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.hunting.eigenvalues import count_undamped, dense, eigenvalues, state_matrix
 from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem
 from yawdesign.response.track.lines import Wheelsets
+from yawdesign.vehicle.elements import WheelRailContact
 from yawdesign.vehicle.state_space import StateSpace
 from yawdesign.vehicle.vehicle import Model, Vehicle
 
@@ -90,12 +92,14 @@ class System:
 
     @property
     def wheelsets(self) -> Wheelsets:
-        """When its wheelsets pass a place of the track: the rear one 2 a / v later than the front one."""
-        p = self.vehicle.p
-        return Wheelsets(self.v, (0.0, 2 * float(p["a"]) / self.v), 2 * float(p["b"]))
+        """When its wheelsets, in the order of the inputs, pass a place of the track: as they stand behind the first."""
+        contacts: list[Any] = [e for e in self.space.elements if isinstance(e, WheelRailContact)]
+        first = contacts[0]
+        lags = tuple(float(first.ahead - contact.ahead) / self.v for contact in contacts)
+        return Wheelsets(self.v, lags, 2 * float(first.b))
 
 
 def system_at(problem: Problem, v: float) -> System:
-    """Return the bogie of a problem at a speed [m/s]; an error if it has no C_s."""
+    """Return the vehicle of a problem at a speed [m/s]; an error if it has no C_s."""
     given_damping(problem)
-    return System(Model.of(problem).at(problem.bogie.parameters(), v=v))
+    return System(Model.of(problem).at(problem.parameters(), v=v))

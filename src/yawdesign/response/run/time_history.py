@@ -1,4 +1,4 @@
-"""The bogie's motion over a track: where it starts, what drives it, and its history."""
+"""The vehicle's motion over a track: where it starts, what drives it, and its history."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -37,9 +37,9 @@ class History:
     speed : float
         Speed [m/s].
     time, distance : ndarray, shape (n,)
-        Time [s] and way of the front wheelset [m].
+        Time [s] and way of the first wheelset [m].
     values : mapping of str to ndarray
-        Track inputs (``alignment_1`` under the front wheelset, ...) and responses, in SI.
+        Track inputs (``alignment_1`` under the first wheelset, ...) and responses, in SI.
     units : mapping of str to str
         Their SI units.
     """
@@ -126,7 +126,7 @@ class Trajectory:
 
 
 def move(system: System, plan: Plan) -> Trajectory:
-    """Return the motion of a bogie over a track."""
+    """Return the motion of a vehicle over a track."""
     clock = planned_clock(system, plan)
     hold = first_order_hold(system.A, system.B, clock.step)
     u, lines = _inputs(system, plan.track, clock)
@@ -138,7 +138,7 @@ def move(system: System, plan: Plan) -> Trajectory:
 
 
 def planned_clock(system: System, plan: Plan) -> Clock:
-    """Return the instants of the run of a bogie."""
+    """Return the instants of the run of a vehicle."""
     abscissa = system.abscissa
     duration = plan.duration if plan.length is None else plan.length / system.v
     if isinstance(plan.track, MeasuredTrack):
@@ -183,7 +183,7 @@ def _first_state(
 
 
 def _displaced(system: System, offset: Mapping[str, float]) -> Float:
-    """Return the state of a bogie that was held displaced until its dampers had come to rest."""
+    """Return the state of a vehicle that was held displaced until its dampers had come to rest."""
     n = len(system.coordinates)
     x = np.zeros(len(system.A))
     for name, value in offset.items():

@@ -1,0 +1,131 @@
+"""The second route to a margin: Routh's array of the polynomials, which knows nothing of eigenvalues."""
+
+import decimal
+import math
+from collections.abc import Sequence
+from decimal import Decimal
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+
+from yawdesign.damper.design_space import Space
+from yawdesign.hunting.arrays import Bools, Float, Index
+from yawdesign.hunting.hurwitz import hurwitz_minors
+from yawdesign.hunting.routh import TIME_UNIT, routh_column, sector_column, sector_rows
+from yawdesign.problem import exact
+from yawdesign.vehicle.polynomials import Polynomial, scale_variable, shift, trim
+from yawdesign.vehicle.vehicle import Model, Vehicle
+
+# How close the margins by two routes must be. Where two roots coalesce, as they do at many optima, an eigenvalue is
+# right to 1e-8 of its own modulus only; a hunting mode's is 10 ... 30 rad/s.
+AGREE = {"decay_rate": 2e-5, "damping_ratio": 1e-6}
+SECTIONS, LEVELS = 3, 1025  # how often the margin is enclosed, and by how many levels
+DIGITS, HALVINGS = 100, 24  # with exact coefficients
+TOO_MANY = 1000  # roots: what is counted where Routh's array breaks down
+
+
+def margin_by_routh(space: Space, vehicles: Sequence[Vehicle], margin: float, pairs: int = 0) -> float:
+    """Return the margin by Routh's array, looked for around the one by eigenvalues; NaN if it is not there.
+
+    Parameters
+    ----------
+    space : Space
+        The design space, with the variables and the objective.
+    vehicles : sequence of Vehicle
+        The design under each condition.
+    margin : float
+        By eigenvalues [1/s], [-].
+    pairs : int, optional
+        So many pairs of roots, those of the least margins, are left out under each condition.
+    """
+    found = _in_double_precision(space, vehicles, margin, pairs)
+    if abs(found - margin) <= AGREE[space.objective]:
+        return found
+    return _in_decimals(space, vehicles, margin, pairs)
+
+
+def _in_double_precision(space: Space, vehicles: Sequence[Vehicle], margin: float, pairs: int) -> float:
+    ratio, chosen = space.objective == "damping_ratio", [_polynomials(space, vehicle) for vehicle in vehicles]
+
+    def exceeded(level: Float) -> Bools:
+        counts = [sum(_beyond(p, level, ratio) for p in polynomials) for polynomials in chosen]
+        return np.asarray(np.all([count <= (pairs if ratio else 2 * pairs) for count in counts], axis=0))
+
+    if ratio and margin <= 0:  # the sector's scheme ends at zero
+        return float("nan") if exceeded(np.zeros(1)) else margin
+    low, high = margin - 100 * AGREE[space.objective], margin + 100 * AGREE[space.objective]
+    for _ in range(SECTIONS):
+        levels = np.linspace(max(low, 0) if ratio else low, high, LEVELS)
+        passed = exceeded(levels)
+        if not passed[0] or passed.all():
+            return float("nan")
+        end = int(np.argmin(passed))  # the first that is not exceeded
+        low, high = levels[end - 1], levels[end]
+    return float(low)
+
+
+def _in_decimals(space: Space, vehicles: Sequence[Vehicle], margin: float, pairs: int) -> float:
+    """Return the same from exact coefficients: where roots are close to each other, double precision does not tell."""
+    ratio = space.objective == "damping_ratio"
+    with decimal.localcontext(decimal.Context(prec=DIGITS, Emax=decimal.MAX_EMAX, Emin=decimal.MIN_EMIN, traps=[])):
+        exactly = [vehicle.model.at({name: exact(x) for name, x in vehicle.p.items()}) for vehicle in vehicles]
+        chosen = [[tuple(map(_decimal, p)) for p in _polynomials(space, vehicle)] for vehicle in exactly]
+
+        def exceeded(level: Decimal) -> bool:
+            counts = [sum(_beyond_exactly(p, level, ratio) for p in polynomials) for polynomials in chosen]
+            return max(counts) <= (pairs if ratio else 2 * pairs)
+
+        near = Decimal(AGREE[space.objective])
+        low, high = Decimal(margin) - near, Decimal(margin) + near
+        if low < 0 < ratio or not exceeded(low) or exceeded(high):
+            return float("nan")
+        for _ in range(HALVINGS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if exceeded(middle) else (low, middle)
+        return float(low)
+
+
+def _polynomials(space: Space, vehicle: Vehicle) -> list[Polynomial]:
+    """Return the polynomials that count in the margin, in s / (100 rad/s)."""
+    movable = space.model.movable(space.names)
+    chosen = [motion for motion in vehicle.motions if motion.name in movable]
+    return [scale_variable(trim(motion.polynomial(vehicle.C_s)), int(TIME_UNIT)) for motion in chosen]
+
+
+def _decimal(x: Fraction) -> Decimal:
+    return Decimal(Fraction(x).numerator) / Decimal(Fraction(x).denominator)
+
+
+def _beyond(p: Polynomial, level: Float, ratio: bool) -> Index:
+    """Return how many roots of a polynomial lie beyond a level: of those in a sector one of each pair is counted."""
+    with np.errstate(all="ignore"):
+        entries = sector_column(p, level) if ratio else routh_column(shift(p, -level / TIME_UNIT))
+        column = np.array([np.broadcast_to(x, level.shape) for x in entries], dtype=float)
+        changes = np.sum(np.sign(column[1:]) != np.sign(column[:-1]), axis=0)
+    regular = np.isfinite(column).all(axis=0) & (column != 0).all(axis=0)
+    return np.asarray(np.where(regular, changes, TOO_MANY), dtype=np.intp)
+
+
+def _beyond_exactly(p: Polynomial, level: Decimal, ratio: bool) -> int:
+    """Return the same of decimals."""
+    if ratio:
+        column = [row[0] for row in sector_rows(p, -level, (1 - level * level).sqrt())]
+    else:
+        column = routh_column(shift(p, -level / int(TIME_UNIT)))
+    if not all(math.isfinite(x) and x for x in column):
+        return TOO_MANY
+    return sum((a > 0) != (b > 0) for a, b in pairwise(column))
+
+
+def hurwitz_positive(vehicle: Vehicle) -> bool:
+    """Return whether all Hurwitz minors are positive: of the paper's polynomial where the vehicle is one of the paper.
+
+    Other vehicles, with a car body or with rigid joints, have no printed matrix; there it is each motion's own.
+    """
+    if vehicle.model == Model(vehicle.model.kind, vehicle.model.equations):
+        polynomials = [vehicle.paper_coefficients(TIME_UNIT)[::-1]]
+    else:
+        polynomials = [scale_variable(motion.polynomial(vehicle.C_s), TIME_UNIT) for motion in vehicle.motions]
+    # A damper without damping lowers the degree.
+    return all(sign > 0 for p in polynomials for sign in hurwitz_minors(trim(p)[::-1])[0])

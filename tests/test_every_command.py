@@ -1,0 +1,181 @@
+"""Every command for every kind of vehicle: its numbers are those of an independent state matrix, or it refuses clearly.
+
+What a command cannot do for a kind stands in `REFUSED`, and nothing else may be refused; an answer for another vehicle,
+such as the single bogie in the place of the whole one, does not have the numbers that are looked for here.
+"""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import yawdesign as yd
+from yawdesign.cli import app
+from yawdesign.problem.parameters import CarBody
+
+CURVE = {"R": "300 m", "L": "19 m", "l": "60 m", "V_r": "90 km/h", "limit": 0.08}
+KINDS = ("power", "trailer", "power with car body", "trailer with car body", "rigid yaw dampers")
+# By command and kind: what the refusal says. The command then ends with 1 or 2.
+REFUSED: dict[tuple[str, str], str] = {}
+# What ends with a fault so far; a test that passes says so.
+FAULTS = {("design", "rigid yaw dampers"), ("simulate", "rigid yaw dampers"), ("optimise", "rigid yaw dampers")}
+
+
+@pytest.fixture(scope="module")
+def problems(car_body):
+    """Return a problem of every kind."""
+    body = CarBody(**car_body)
+    curve = yd.Curve(**CURVE)
+    plain = {kind: replace(yd.table1(kind=kind), curve=curve).replace(C_s=1e6) for kind in ("power", "trailer")}
+    return {
+        **plain,
+        **{f"{kind} with car body": replace(problem, car_body=body) for kind, problem in plain.items()},
+        "rigid yaw dampers": plain["power"].replace(K_ds="rigid"),
+    }
+
+
+@pytest.fixture(params=KINDS)
+def kind(request):
+    return request.param
+
+
+@pytest.fixture
+def problem(problems, kind):
+    return problems[kind]
+
+
+@pytest.fixture
+def file(problem, kind, tmp_path):
+    """Return the file of a problem."""
+    data = {name: x for name, x in problem.to_dict().items() if name in ("equations", "bogie", "car_body") and x}
+    data |= {"speed": "300 km/h", "curve": CURVE}
+    path = tmp_path / "problem.yaml"
+    path.write_text(json.dumps(data), encoding="utf-8")
+    try:
+        yd.load(path)
+    except yd.ProblemError as error:
+        if "car_body" in str(error) or "rigid" in str(error):
+            pytest.skip(f"a problem file cannot say it yet: {kind}")
+        raise
+    return path
+
+
+@pytest.fixture
+def answered(file, kind, request):
+    """Return a function that runs a command and returns its JSON, or skips the test if it refused as it must."""
+
+    def run(command, *options, codes=(0,), plain=False):
+        if (command, kind) in FAULTS:
+            request.applymarker(pytest.mark.xfail(reason=f"{command} fails for {kind}", strict=True))
+        done = CliRunner().invoke(app, [command, str(file), *options, *(() if plain else ("--json",))])
+        expected = REFUSED.get((command, kind))
+        if expected:
+            assert done.exit_code in (1, 2), done.output
+            assert expected in done.stderr
+            pytest.skip(f"{command} refuses {kind}: {expected}")
+        assert done.exception is None or isinstance(done.exception, SystemExit), repr(done.exception)
+        assert done.exit_code in codes, done.output
+        return done.stdout if plain else json.loads(done.stdout)
+
+    return run
+
+
+@pytest.fixture
+def spectrum(independent, problem):
+    """Return the eigenvalues at other values of some parameters, by the equations written a second time."""
+
+    def found(**changes):
+        p = {**{name: float(x) for name, x in problem.parameters().items()}, "v": 300 / 3.6, **changes}
+        return np.linalg.eigvals(np.array(independent.equations(problem.bogie.kind, p).state_matrix(), dtype=float))
+
+    return found
+
+
+def same(found, expected, tolerance=1e-8):
+    """Say whether two spectra are the same, each root having its own."""
+    left = list(expected)
+    assert len(found) == len(left)
+    for x in found:
+        nearest = min(range(len(left)), key=lambda k: abs(left[k] - x))
+        assert abs(left.pop(nearest) - x) < tolerance * max(1, abs(x))
+
+
+def test_check(answered):
+    assert "no errors" in answered("check", plain=True)
+
+
+def test_stability(answered, spectrum):
+    found = answered("stability", codes=(0, 1))
+    s = spectrum()
+    same([complex(*x) for x in found["eigenvalues"]], s)
+    assert found["stable"] == bool(s.real.max() < 0)
+    assert found["spectral_abscissa"] == pytest.approx(s.real.max(), rel=1e-8)
+
+
+def test_modes(answered, spectrum):
+    found = answered("modes", codes=(0, 1))["modes"]
+    roots = [complex(*mode["eigenvalue"]) for mode in found]
+    roots += [x.conjugate() for x in roots if x.imag]
+    same(roots, spectrum(), 1e-7)
+    names = [mode["name"] for mode in found]
+    assert len(names) == len(set(names))
+
+
+def test_design(answered, spectrum):
+    found = answered("design", codes=(0, 1))
+    for value in found["critical"]:
+        s = spectrum(C_s=value["C_s"])
+        assert np.min(np.abs(s - 1j * value["omega"])) < 1e-6 * value["omega"]
+    edges = [x["C_s"] for x in found["critical"]]
+    for C_s in np.geomspace(1e3, 1e8, 60):
+        if all(abs(np.log(C_s / x)) > 1e-3 for x in edges):
+            inside = any(low < C_s < (high or np.inf) for low, high in found["stable_intervals"])
+            assert inside == bool(spectrum(C_s=C_s).real.max() < 0), C_s
+    if found["C_s"] is not None:
+        assert found["stable"] == bool(spectrum(C_s=found["C_s"]).real.max() < 0)
+
+
+def test_sweep(answered, spectrum):
+    found = answered("sweep", "--of", "stable", "--over", "C_s=20 kN s/m:5 MN s/m:7:log", codes=(0, 1))
+    for C_s, stable in zip(found["axes"][0]["values"], found["values"], strict=True):
+        assert stable == bool(spectrum(C_s=C_s).real.max() < 0)
+    rates = answered("sweep", "--of", "decay_rate", "--over", "lambda=0.05:0.25:3", codes=(0, 1))
+    for conicity, rate in zip(rates["axes"][0]["values"], rates["values"], strict=True):
+        assert rate == pytest.approx(-spectrum(**{"lambda": conicity}).real.max(), rel=1e-7)
+
+
+@pytest.mark.slow
+def test_optimise(answered, spectrum):
+    found = answered("optimise", codes=(0, 1))
+    if found["optimum"]["C_s"] is not None:
+        assert found["margin"] == pytest.approx(-spectrum(**found["optimum"]).real.max(), rel=1e-6)
+
+
+def test_simulate(answered, independent, problem, spectrum):
+    found = answered("simulate", "--duration", "2 s", codes=(0, 1))
+    p = {**problem.parameters(), "v": 300 / 3.6}
+    assert set(independent.equations(problem.bogie.kind, p).names) <= set(found["rms"])
+    assert found["runs"][0]["spectral_abscissa"] == pytest.approx(spectrum().real.max(), rel=1e-7)
+
+
+@pytest.mark.slow
+def test_export(answered, independent, problem, tmp_path):
+    answered("export", "--to", str(tmp_path / "exported"))
+    manifest = (tmp_path / "exported" / "manifest.json").read_text(encoding="utf-8")
+    p = {**problem.parameters(), "v": 300 / 3.6}
+    assert all(f'"{name}"' in manifest for name in independent.equations(problem.bogie.kind, p).names)
+
+
+@pytest.mark.parametrize("own", ["power", "trailer"])
+def test_new(own, tmp_path):
+    path = tmp_path / "problem.yaml"
+    assert CliRunner().invoke(app, ["new", str(path), "--kind", own]).exit_code == 0
+    assert yd.load(path).bogie.kind == own
+
+
+def test_all_commands_are_here():
+    names = {name.removeprefix("test_") for name in globals()}
+    commands = {command.callback.__name__ for command in app.registered_commands} - {"schema"}
+    assert commands <= names, commands - names
