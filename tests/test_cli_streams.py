@@ -1,5 +1,6 @@
 """Closed and full standard streams, devices as files: a message, the right exit code, never a traceback."""
 
+import logging
 import os
 import subprocess
 import sys
@@ -7,6 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
+from yawdesign.cli.answering import long_work_told
 
 PROBLEM = Path(__file__).parents[1] / "problems" / "table1.yaml"
 YAWDESIGN = f"{sys.executable} -m yawdesign"
@@ -95,3 +98,11 @@ def test_settings_of_matplotlib_that_are_wrong_or_need_more(tmp_path):
     done = shell(f"{SWEEP} --plot x.png", tmp_path, MPLBACKEND="nonsense")
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "x.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_long_work_is_said_on_standard_error(capsys):
+    logger = logging.getLogger("yawdesign.hunting.many.compiled")
+    with long_work_told():
+        logger.info("compiling")
+    logger.info("not shown")
+    assert capsys.readouterr().err == "compiling\n"

@@ -209,7 +209,7 @@ def test_the_same_polynomial_exactly(independent, drawn):
             assert sum(a * s**k for k, a in enumerate(polynomial)) / polynomial[-1] == wanted
 
 
-@pytest.mark.parametrize("kind", ["power", "trailer"])
+@pytest.mark.parametrize("kind", [pytest.param("power", marks=pytest.mark.slow), "trailer"])
 def test_the_same_polynomial_of_unlike_bogies(independent, table1, kind):
     p = {
         **vehicle_parameters(table1, kind, ("body",)),

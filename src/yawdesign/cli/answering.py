@@ -1,6 +1,7 @@
 """What every command does: it reads its problem, says what is wrong, shows its answer and sets the exit code."""
 
 import json
+import logging
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -42,7 +43,7 @@ def mistakes_told() -> Iterator[None]:
     from yawdesign.problem.diagnostics import UnitWarning
 
     try:
-        with warnings_told(UnitWarning):
+        with warnings_told(UnitWarning), long_work_told():
             yield
     except (ProblemError, OSError, KeyboardInterrupt) as error:
         tell(told(error))
@@ -72,6 +73,27 @@ def code_of(error: BaseException | None) -> int:
 def ended(*, checked: bool, feasible: bool) -> typer.Exit:
     """Return what ends a command: whether its answer is verified, and whether there is a stable or feasible design."""
     return typer.Exit((DONE if feasible else NOTHING_FEASIBLE) if checked else SOLVER_FAILED)
+
+
+class _Telling(logging.Handler):
+    """Shows what the package logs as a message."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        tell(record.getMessage())
+
+
+@contextmanager
+def long_work_told() -> Iterator[None]:
+    """Say what takes seconds and has no progress of its own, such as a compilation."""
+    logger, handler = logging.getLogger("yawdesign"), _Telling()
+    before = logger.level
+    logger.addHandler(handler)
+    logger.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        logger.removeHandler(handler)
+        logger.setLevel(before)
 
 
 @contextmanager

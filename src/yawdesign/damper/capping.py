@@ -4,6 +4,7 @@ The sway of a car body is one: wherever the yaw dampers and the motors' suspensi
 and behind it the margins of hunting would not be looked at.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise, product
 
@@ -123,7 +124,14 @@ def _followed(space: Space, condition: int, mode: CappingMode, start: Float, end
     return None
 
 
-def name_of(vehicle: Vehicle, mode: CappingMode) -> str:
+def names_of(vehicle: Vehicle, modes: Sequence[CappingMode]) -> str:
+    """Return what modes are called, with their frequencies where two have the same name."""
+    names = [_name_of(vehicle, mode) for mode in modes]
+    numbered = [f"{name} at {mode.s.imag / (2 * np.pi):.3g} Hz" for name, mode in zip(names, modes, strict=True)]
+    return ", ".join(names if len({*names}) == len(names) else numbered)
+
+
+def _name_of(vehicle: Vehicle, mode: CappingMode) -> str:
     """Return what a mode is called: after the bodies, of those with one name, that take the largest part in it."""
     space = vehicle.folded_state_space
     left, right = _vectors(vehicle, mode)
@@ -138,7 +146,7 @@ def name_of(vehicle: Vehicle, mode: CappingMode) -> str:
 def sensitivity(vehicle: Vehicle, mode: CappingMode, objective: str) -> dict[str, float]:
     """Return d ln margin / d ln p [-] of a mode for every parameter p and the speed, the largest first.
 
-    ``ds/dp = l (dA/dp) r`` with the left and the right eigenvector, ``l r = 1``, and the state matrix's own derivatives.
+    ``ds/dp = l (dA/dp) r`` with the left and the right eigenvector, ``l r = 1``, and the matrix's own derivatives.
     """
     names = [key for key, value in vehicle.p.items() if value]
     symbols = ca.SX.sym("p", len(names))

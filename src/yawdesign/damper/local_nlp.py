@@ -2,8 +2,8 @@
 
 Of degree 50, equal coefficients say too little in double precision, and roots as unknowns jump. So the margins of the
 modes that matter are taken from the eigenvalues at a few designs nearby, as polynomials of second degree of the design;
-IPOPT finds the largest least one of them within a trust region, which grows where the models hold and shrinks where they
-do not. Where several modes tie, as they do at most optima, this converges as fast as Newton's method.
+IPOPT finds the largest least one of them within a trust region, which grows where the models hold and shrinks where
+they do not. Where several modes tie, as they do at most optima, this converges as fast as Newton's method.
 """
 
 from collections.abc import Mapping
@@ -30,8 +30,8 @@ OPTIONS: Mapping[str, Any] = {
     "show_eval_warnings": False,
 }
 MODES = 12  # those with the least margins, which have a model
-APART = 1e-3  # of the designs that a model is made of, in the cube
-MOST_STEPS = 25
+APART = (3e-5, 1e-3)  # least and most distance of the designs that a model is made of, in the cube
+MOST_STEPS = 40
 RADIUS, LEAST_RADIUS = 0.03, 1e-8  # of the trust region, in the cube
 MOST_CURVED = 8  # variables with which models are of second degree; with more, of first
 HOLDS = 0.5  # part of the promised gain with which a model holds
@@ -68,9 +68,9 @@ class LocalImprover:
 
     def improve(self, x: Float, margin: float) -> list[Float]:
         """Return the point that is reached from a point of the cube with a given margin; none if it is that one."""
-        radius, best, value, models = RADIUS, x, margin, None
+        radius, best, value = RADIUS, x, margin
         for _ in range(MOST_STEPS):
-            models = models or self._models(best)
+            models = self._models(best, float(np.clip(radius / 10, *APART)))
             there, promised = self._solved(models, best, value, radius)
             found = float(np.squeeze(self.space.margins_at(there[:, None])))
             if found - value > HOLDS * (promised - value):
@@ -78,7 +78,7 @@ class LocalImprover:
             else:
                 radius /= 4
             if found > value:
-                best, value, models = there, found, None
+                best, value = there, found
             if radius < LEAST_RADIUS:
                 break
         return [best] if value > margin else []
@@ -99,8 +99,8 @@ class LocalImprover:
     def _solved(self, models: _Models, x: Float, margin: float, radius: float) -> tuple[Float, float]:
         """Return the best point of the models within a radius around a point, and the margin that they promise."""
         size = max(abs(margin), 1e-3)  # the NLP's unit of margins; that of its steps is the radius
-        numbers = [(models.margin - margin) / size, models.capped]
-        numbers += [[(self.space.floor - margin) / size if self.space.pairs else 0.0]]
+        floor = (self.space.floor - margin) / size if self.space.pairs else 0.0
+        numbers = [(models.margin - margin) / size, models.capped, np.array([floor])]
         numbers += [(models.slope * radius / size).ravel(order="F")]
         numbers += [(each * radius**2 / size).ravel(order="F") for each in models.curvature]
         offset = (x - models.centre) / radius  # of the point from where the models were made
@@ -118,20 +118,21 @@ class LocalImprover:
             return x, margin
         return np.clip(models.centre + radius * step, 0, 1), margin + size * float(t[0])
 
-    def _models(self, x: Float) -> _Models:
+    def _models(self, x: Float, apart: float) -> _Models:
+        """Return the models around a point of the cube, from points that are so far apart."""
         d = len(x)
-        centre = np.clip(x, APART, 1 - APART)
+        centre = np.clip(x, apart, 1 - apart)
         pairs = [*combinations(range(d), 2)] if d <= MOST_CURVED else []
-        unit = np.eye(d) * APART
+        unit = np.eye(d) * apart
         steps = [np.zeros(d), *unit, *(-unit), *(a for i, j in pairs for a in (unit[i] + unit[j], -unit[i] - unit[j]))]
         margins, capped = self._margins(centre[:, None] + np.array(steps).T)
         here, up, down = margins[:, 0], margins[:, 1 : 1 + d], margins[:, 1 + d : 1 + 2 * d]
-        slope, curvature = (up - down) / (2 * APART), np.zeros((MODES, d, d))
+        slope, curvature = (up - down) / (2 * apart), np.zeros((MODES, d, d))
         if d <= MOST_CURVED:
             second = up + down - 2 * here[:, None]
-            curvature[:, range(d), range(d)] = second / APART**2
+            curvature[:, range(d), range(d)] = second / apart**2
             for (i, j), both in zip(pairs, np.split(margins[:, 1 + 2 * d :], max(len(pairs), 1), axis=1), strict=False):
-                mixed = (both.sum(axis=1) - 2 * here - second[:, i] - second[:, j]) / (2 * APART**2)
+                mixed = (both.sum(axis=1) - 2 * here - second[:, i] - second[:, j]) / (2 * apart**2)
                 curvature[:, i, j] = curvature[:, j, i] = mixed
         return _Models(centre, here, slope, curvature, capped)
 
@@ -147,11 +148,11 @@ class LocalImprover:
             chosen = [motion for motion in self.space.model.motions if motion.name in movable]
             own = np.concatenate([self._of_modes(motion_eigenvalues(vehicle, motion)) for motion in chosen])
             own = own[np.argsort(own[:, 0], kind="stable")][:MODES]
-            found.append((own, np.arange(len(own)) < self.space.pairs))
+            found.append((own, (np.arange(len(own)) < self.space.pairs).astype(float)))
         margins, capped = (np.concatenate(parts) for parts in zip(*found, strict=True))
-        least = np.argsort(np.where(capped, -np.inf, margins[:, 0]), kind="stable")
+        least = np.argsort(np.where(capped > 0, -np.inf, margins[:, 0]), kind="stable")
         least = np.resize(least[:MODES], MODES)  # of fewer modes some twice
-        return margins[least], capped[least].astype(float)
+        return margins[least], capped[least]
 
     def _of_modes(self, s: Complex) -> Float:
         """Return the margins of all modes of the first point at all points, shape (modes, points)."""

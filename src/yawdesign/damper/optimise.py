@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from yawdesign.damper.capping import GIVEN_AWAY, CappingMode, at_design, capping_modes, name_of, sensitivity
+from yawdesign.damper.capping import GIVEN_AWAY, CappingMode, at_design, capping_modes, names_of, sensitivity
 from yawdesign.damper.curving import excess
 from yawdesign.damper.design_space import Space, fraction, scale
 from yawdesign.damper.forward import ForwardDesign, design, forward_design, others_stable, resistance
@@ -94,7 +94,7 @@ class Optimum(Result):
         Where modes cap the margin that the variables hardly move (less than a fifth over their bounds): the worst
         margin of all others, which is then the largest with at most 2 % of the largest margin given away [1/s], [-].
     capped_by : str or None
-        Names of those modes, such as ``"car body sway"``.
+        Names of those modes, such as ``"sway"``; with their frequencies where two have the same.
     capping_sensitivity : mapping
         d ln margin / d ln p [-] of the first of them for every parameter p and the speed v, the largest first.
     requirements, cases : tuple
@@ -171,7 +171,7 @@ def optimise(
     if space.curve is not None and not space.feasible(space.values(space.gentlest)):
         return _nothing(space, space.curve)
     x = _found(space, seed, options or {}, progress)
-    capping = capping_modes(space, x)
+    capping = capping_modes(space, x) if space.model.has_car_body else ()
     if capping:
         # Numbers, and not x, go on: the curve's limit stays where it is.
         least, values = float(np.squeeze(space.margins_at(x[:, None]))), space.values(x)
@@ -197,7 +197,8 @@ def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progres
     rng, margin, improver = np.random.default_rng(seed), space.margins_at(x), _improver(space, options)
     order = distinct(x, margin, np.full(len(margin), APART))  # several searches find the same
     x, margin = x[:, order], margin[order]
-    more = _searches(space)  # local optima multiply with the variables
+    # Local optima multiply with the variables; models come from farther, and take longer.
+    more = _searches(space) if isinstance(improver, Improver) else 1
     for turn, (starts, radius) in enumerate(TURNS):
         progress("solving the NLP", turn / len(TURNS))
         starts = min(starts * more, x.shape[1])
@@ -211,7 +212,7 @@ def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progres
 
 
 def _improver(space: Space, options: Mapping[str, Any]) -> Improver | LocalImprover:
-    """Return the NLP of the whole polynomials, or that of models where coefficients of so high a degree say too little."""
+    """Return the NLP of whole polynomials, or that of models where coefficients of so high a degree say too little."""
     movable = space.model.movable(space.names)
     degrees = [len(p) - 1 for motion in space.model.motions if motion.name in movable for p in motion.coefficients]
     return (LocalImprover if space.pairs or max(degrees) > MOST_FACTORED else Improver)(space, options)
@@ -223,10 +224,10 @@ def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
     results = [stability_at(vehicle, space.names) for vehicle in vehicles]
     margin, worst = _worst(space, results)
     second = margin_by_routh(space, vehicles, margin)
-    nexts = _next_margins(space, vehicles) if capping else ()
+    nexts = _next_margins(space, vehicles) if capping else (margin, margin)
     stable = all(result.stable for result in results)
     agree = all(result.checked for result in results) and abs(second - margin) <= AGREE[space.objective]
-    agree = agree and (not capping or abs(nexts[0] - nexts[1]) <= AGREE[space.objective])
+    agree = agree and abs(nexts[0] - nexts[1]) <= AGREE[space.objective]
     status = (Status.OPTIMAL if stable else Status.UNSTABLE) if agree else Status.UNVERIFIED_OPTIMUM
     helpless = status == Status.UNSTABLE and not others_stable(vehicles)
     bounds = {name: _bound(space, name, values[name]) for name in space.names}
@@ -266,7 +267,7 @@ def _capped(space: Space, vehicle: Vehicle, capping: Sequence[CappingMode], next
     modes = [at_design(vehicle, mode, space.objective) for mode in capping]
     return {
         "next_margin": nexts[0],
-        "capped_by": ", ".join(dict.fromkeys(name_of(vehicle, mode) for mode in modes)),
+        "capped_by": names_of(vehicle, modes),
         "capping_sensitivity": sensitivity(vehicle, modes[0], space.objective),
     }
 

@@ -49,8 +49,8 @@ def _in_double_precision(space: Space, vehicles: Sequence[Vehicle], margin: floa
     ratio, chosen = space.objective == "damping_ratio", [_polynomials(space, vehicle) for vehicle in vehicles]
 
     def exceeded(level: Float) -> Bools:
-        counts = [sum(_beyond(p, level, ratio) for p in polynomials) for polynomials in chosen]
-        return np.asarray(np.all([count <= (pairs if ratio else 2 * pairs) for count in counts], axis=0))
+        counts = [np.sum([_beyond(p, level, ratio) for p in polynomials], axis=0) for polynomials in chosen]
+        return np.asarray(np.max(counts, axis=0) <= (pairs if ratio else 2 * pairs))
 
     if ratio and margin <= 0:  # the sector's scheme ends at zero
         return float("nan") if exceeded(np.zeros(1)) else margin

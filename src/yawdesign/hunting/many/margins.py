@@ -284,7 +284,7 @@ def _halved(objective: str, search: _Search, rank: int, *, backwards: bool) -> _
     return search._replace(
         inner=np.where(none, middle, search.inner),
         outer=np.where(none, search.outer, middle),
-        inside=np.where(none & sure, np.maximum(count, search.inside), search.inside),
+        inside=np.where(none & sure, np.maximum(count, search.inside), search.inside) if rank else search.inside,
         beyond=np.where(none | ~sure, search.beyond, np.minimum(count, search.beyond)),
         start=start,
     )
