@@ -260,7 +260,7 @@ def damper_component(problem: Problem, bogie: str = "", **options: Any) -> Dampe
     names = {f"yaw damper {end}": which for end, which in BOGIES.items()} if problem.car_body else {}
     if bogie:
         if not names:
-            raise ProblemError("bogie: there is one bogie alone: leave it out, or give the problem a car_body")
+            raise ProblemError(f"bogie: {bogie!r} is none of two: leave it out, or give the problem a car_body")
         as_choice(bogie, tuple(names.values()))
     found = checked(simulate)(problem, **options)
     dampers = [damper for damper in found.dampers if not bogie or names[damper.name] == bogie]
