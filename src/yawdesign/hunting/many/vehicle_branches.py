@@ -18,7 +18,7 @@ from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.receptance import Receptance
 from yawdesign.hunting.routh import TIME_UNIT
 
-# Of the frequency, in 100 rad/s: the ends of the range and of its coarse part, and the cells in both parts. A very heavy
+# Of the frequency, in 100 rad/s: the ends of the range and of its coarse part, and the cells in both parts. A heavy
 # car body moves that slowly; far above, both branches are one but for rounding.
 RANGE, CELLS = (1e-9, 1e-4, 1e2), (20, 96)
 HALVINGS = 24
