@@ -11,6 +11,7 @@ from yawdesign.hunting.certificate import certify
 from yawdesign.hunting.critical_damping import critical_damping
 from yawdesign.hunting.eigenvalues import count_undamped, motion_eigenvalues
 from yawdesign.hunting.exact import exact_critical_values
+from yawdesign.hunting.vehicle_values import in_double_precision
 from yawdesign.problem.cases import Case, Change
 from yawdesign.vehicle.vehicle import Model
 
@@ -30,7 +31,9 @@ def counted(vehicle, C_s):
 
 @pytest.mark.parametrize("reference", REFERENCE, ids=lambda c: c["name"])
 def test_reference_vehicles(reference):
-    found = critical_damping(vehicle_of(reference))
+    vehicle = vehicle_of(reference)
+    assert in_double_precision(vehicle).decided
+    found = critical_damping(vehicle)
     assert [x.C_s for x in found.critical] == pytest.approx(reference["critical_C_s"], rel=1e-10)
     assert [x.omega for x in found.critical] == pytest.approx(reference["omega"], rel=1e-10)
     assert list(found.unstable_roots) == reference["unstable_roots_per_interval"]
@@ -91,10 +94,16 @@ def test_a_very_heavy_car_body_stands_still():
     assert found.critical[2].C_s > 1e7  # motions of the car body, of 1e-5 rad/s
 
 
-def test_two_values_that_coincide():
-    found = critical_damping(table_1(M_c=1e19, J_c=1e19, I_c=1e19))
+@pytest.mark.slow
+@pytest.mark.parametrize("mass", [1e17, 1e19])
+def test_what_is_lost_in_rounding_is_left_to_exact_numbers(mass):
+    # Double precision finds the first two values, whose counts fit, and none of the car body's own.
+    vehicle = table_1(M_c=mass, J_c=mass, I_c=mass)
+    assert not in_double_precision(vehicle).decided
+    found = critical_damping(vehicle)
+    assert found.checked
     assert [x.C_s for x in found.critical[:2]] == pytest.approx([63607.4140611465] * 2, rel=1e-9)
-    assert found.unstable_roots[:3] == (4, 2, 0)
+    assert found.unstable_roots == (4, 2, 0, 2, 4, 2, 0)
 
 
 @pytest.mark.parametrize("joint", ["K_ds", "K_dt", "K_dm"])
@@ -130,3 +139,22 @@ def test_counts_agree_with_a_scan_of_eigenvalues(changes):
     ends = [x.C_s for x in found.critical]
     for C_s in np.geomspace(1e2, 1e9, 150):
         assert counted(vehicle, C_s) == found.unstable_roots[np.searchsorted(ends, C_s)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("apart", [1e-4, 1e-7, 1e-10])
+def test_both_sides_of_a_fold(apart):
+    # Over f_11 the two upper values of Table I at conicity 0.15 meet and vanish.
+    f_11 = table_1().p["f_11"]
+    few, many = f_11 * 0.98, f_11
+    few, many = (few, many) if len(critical_damping(table_1(f_11=few)).critical) == 1 else (f_11 * 1.02, f_11)
+    assert len(critical_damping(table_1(f_11=few)).critical) == 1
+    for _ in range(45):
+        middle = (few + many) / 2
+        few, many = (middle, many) if len(in_double_precision(table_1(f_11=middle)).critical) < 2 else (few, middle)
+    for side in (1 - apart, 1 + apart):
+        vehicle = table_1(f_11=many * side)
+        found, proved = critical_damping(vehicle), certify(vehicle)
+        assert found.unstable_roots == proved.unstable_roots
+        assert [x.C_s for x in found.critical] == pytest.approx([x.C_s for x in proved.critical], rel=1e-8)
+        assert found.checked

@@ -27,6 +27,7 @@ REACH = 1e12  # from a damping natural to the vehicle to the farthest that doubl
 FAR = 1e60  # and to where 0 and infinity are looked at
 SAME = 1e-8  # relative difference of C_s and omega of what was found twice
 APART = 1e-6  # relative difference of two values between which roots are counted
+SLOWEST = 1e-9  # of the fastest eigenvalue: where one is slower, pairs of values have been missed
 REFINED = 1e-10  # -Re s / |s| with which a polished root counts as stable
 
 Value = tuple[float, float, float]  # C_s, omega, direction
@@ -77,17 +78,24 @@ def in_double_precision(vehicle: Vehicle) -> VehicleValues:
     natural = float(receptance.natural()[0])
     zeros = _roots_at_zero(vehicle.coupled.coefficients)
     found = _found(vehicle, receptance, natural, zeros)
+    resolved = _are_resolved(motion_eigenvalues(vehicle.replace(C_s=natural), vehicle.model.motions[0]), zeros)
     groups = _groups(found)
     places = _places([[x for x, _, _ in group] for group in groups], natural)
     measured = [_unstable(vehicle, C_s, zeros) for C_s in places]
     ends = [count_unstable(_at(vehicle, C_s)) for C_s in (natural / FAR, natural * FAR)]
-    decided = ends == [measured[0], measured[-1]] and None not in measured
+    decided = resolved and ends == [measured[0], measured[-1]] and None not in measured
     counts = [measured[0] or 0]
     for group, after in zip(groups, measured[1:], strict=True):
         steps = [int(2 * direction) for _, _, direction in group]
         decided &= len({*steps}) == 1 and counts[-1] + sum(steps) == after
         counts += [counts[-1] + sum(steps[: k + 1]) for k in range(len(steps))]
     return VehicleValues(tuple((C_s, w) for C_s, w, _ in found), tuple(counts), decided)
+
+
+def _are_resolved(s: Complex, zeros: int) -> bool:
+    """Return whether the slowest eigenvalue is not lost in the rounding of the fastest."""
+    size = np.sort(np.abs(s))[zeros:]
+    return bool(size[0] > SLOWEST * size[-1])
 
 
 def _found(vehicle: Vehicle, receptance: Receptance, natural: float, zeros: int) -> list[Value]:

@@ -44,6 +44,13 @@ def test_values_at_a_lightly_damped_root_are_seen(reference_vehicle):
     agree(critical_field(sets), 0, vehicle)
 
 
+@pytest.mark.parametrize("mass", [1e9, 1e11, 1e13])
+def test_slow_motions_of_a_heavy_car_body_are_seen(reference_vehicle, mass):
+    vehicle = reference_vehicle("power", **{"lambda": 0.15, **dict.fromkeys(("M_c", "J_c", "I_c"), mass)})
+    field = critical_field(ParameterSets(vehicle.model, vehicle.p, 1))
+    assert agree(field, 0, vehicle) == 6
+
+
 def test_a_very_heavy_car_body_and_a_rigid_joint(reference_vehicle):
     for changes in ({"M_c": 1e15, "J_c": 1e15, "I_c": 1e15}, {"K_ds": np.inf}, {"C_t": 0.0}, {"lambda": 0.0}):
         vehicle = reference_vehicle("power", **{"lambda": 0.15, **changes})
@@ -55,7 +62,7 @@ def test_a_very_heavy_car_body_and_a_rigid_joint(reference_vehicle):
 def test_counts_towards_zero_and_infinity_must_agree_where_no_value_is_found(reference_vehicle, monkeypatch):
     sets = drawn(reference_vehicle("trailer"), 20, 1.2, 9)
     counts = [of_one(sets.vehicle_at(k)).unstable_roots for k in range(20)]
-    monkeypatch.setattr(vehicle_branches, "RANGE", (50.0, 100.0))  # where no value lies
+    monkeypatch.setattr(vehicle_branches, "RANGE", (50.0, 60.0, 100.0))  # where no value lies
     _, passed = followed_branches(sets)
     assert passed.tolist() == [count[0] == count[-1] for count in counts]
     assert not passed.all()

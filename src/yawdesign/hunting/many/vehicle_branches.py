@@ -18,8 +18,9 @@ from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.receptance import Receptance
 from yawdesign.hunting.routh import TIME_UNIT
 
-RANGE = (1e-4, 1e2)  # of the frequency, in 100 rad/s
-CELLS = 96
+# Of the frequency, in 100 rad/s: the ends of the range and of its coarse part, and the cells in both parts. A heavy
+# car body moves that slowly; far above, both branches are one but for rounding.
+RANGE, CELLS = (1e-9, 1e-4, 1e2), (20, 96)
 HALVINGS = 24
 MOST = 64  # open cells of a vehicle: where more are open it is left to the way that looks at one
 BENT = 3.0  # how many times the angle's deviation from straight in the middle a branch may stray inside a cell
@@ -115,14 +116,16 @@ def _crossings(parts: list[Float]) -> tuple[_Crossing, Bools]:
 def _first_cells(parts: list[Float]) -> _Stretches:
     """Return all cells of some vehicles."""
     n = parts[0].shape[1]
-    place = np.linspace(np.log(RANGE[0]), np.log(RANGE[1]), 2 * CELLS + 1)
+    between = zip(pairwise(np.log(RANGE)), CELLS, strict=True)
+    place = np.concatenate([np.linspace(*ends, 2 * cells, endpoint=False) for ends, cells in between])
+    place = np.append(place, np.log(RANGE[-1]))
     w = np.exp(place)
     a, b, c = (_table(part, w) for part in parts)
     mu = _solved(a, b, c)
     left, middle, right = mu[:, :-2:2], mu[:, 1::2], mu[:, 2::2]
     low, high = (np.repeat(x, n) for x in (place[:-2:2], place[2::2]))
     flat = (x.reshape(len(x), -1) for x in (left, middle, right))
-    return _Stretches(np.tile(np.arange(n), CELLS), low, high, *flat)
+    return _Stretches(np.tile(np.arange(n), sum(CELLS)), low, high, *flat)
 
 
 def _table(part: Float, w: Float) -> Complex:
@@ -153,13 +156,16 @@ def _horner(p: Float, x: Float) -> Float:
 
 
 def _solved(a: Complex, b: Complex, c: Complex) -> Complex:
-    """Return both solutions of a mu^2 + b mu + c = 0, then a, c and the discriminant, along a new first axis."""
-    b, c = b / a, c / a
-    discriminant = b * b - 4 * c
+    """Return both solutions of a mu^2 + b mu + c = 0, then a, c and the discriminant, along a new first axis.
+
+    Of the last three only the angles are looked at.
+    """
+    b, ratio, turn = b / a, c / a, a / np.abs(a)
+    discriminant = b * b - 4 * ratio
     root = np.sqrt(discriminant)
     root = np.where((np.conj(b) * root).real < 0, -root, root)
     q = -(b + root) / 2
-    return np.stack([q, c / q, a, c * a, discriminant * a * a])
+    return np.stack([q, ratio / q, turn, c, discriminant * turn * turn])
 
 
 def _along(start: Complex, end: Complex) -> Complex:
