@@ -60,3 +60,11 @@ def test_what_the_answer_does_not_hold():
     assert "DO NOT RELY" in yd.stability(yd.table1()).scope
     assert "stands still" in yd.design(yd.table1().replace(lambda_=0.3)).scope
     assert "DO NOT RELY" not in yd.design(yd.table1().replace(lambda_=0.3)).scope
+
+
+def test_a_vehicle_without_conicity_is_held_by_nothing():
+    """Its shift meets no force: a root at zero, which both ways of counting see."""
+    result = yd.stability(replace(VEHICLE, cases=()).replace(lambda_=0.0))
+    assert not result.stable
+    assert result.checked
+    assert result.spectral_abscissa == 0.0

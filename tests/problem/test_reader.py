@@ -17,6 +17,7 @@ from yawdesign.problem import PARAMETERS, ProblemError, SpeedRange, exact, load,
 from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.reader import read_text
 
+PUBLISHED = {"cooperrider-bogie", "cooperrider-vehicle", "high-speed-vehicle"}
 PROBLEMS = sorted((Path(__file__).parents[2] / "problems").glob("*.yaml"))
 GOOD = """\
 title: a bogie
@@ -73,14 +74,17 @@ def test_the_good_file_is_good():
 @pytest.mark.parametrize("path", PROBLEMS, ids=lambda path: path.stem)
 def test_the_shipped_problems_read_without_a_word(path):
     problem, diagnostics = read(path)
-    assert diagnostics == ()
+    # The bogie of 1972 has next to no yaw damper.
+    unusual = ["bogie.C_s", "design.variables.C_s.min"] if path.stem == "cooperrider-bogie" else []
+    assert [d.key for d in diagnostics] == unusual
     assert problem == load(path)
-    own = {"W": "167 kN", "C_s": "1.5 MN s/m"} if problem.car_body else {}
-    assert problem.bogie == table1(problem.bogie.kind).replace(**own).bogie
+    if path.stem not in PUBLISHED:
+        own = {"W": "167 kN", "C_s": "1.5 MN s/m"} if problem.car_body else {}
+        assert problem.bogie == table1(problem.bogie.kind).replace(**own).bogie
 
 
 def test_there_are_shipped_problems():
-    assert {path.stem for path in PROBLEMS} == {"table1", "power-bogie", "trailer-bogie", "vehicle"}
+    assert {path.stem for path in PROBLEMS} == {"table1", "power-bogie", "trailer-bogie", "vehicle", *PUBLISHED}
 
 
 def test_table1_writes_all_values_out_as_printed():

@@ -9,7 +9,7 @@ from yawdesign.cli.answering import AsJson, ProblemFile, ended, mistakes_told, p
 
 
 def stability(file: ProblemFile, as_json: AsJson = False) -> None:
-    """Tell whether the bogie is stable with its C_s, with all modes and margins."""
+    """Tell whether bogie or vehicle is stable with its C_s, with all modes and margins, and with which faults."""
     _answer(file, as_json, "yawdesign.hunting.verdict", "stability")
 
 

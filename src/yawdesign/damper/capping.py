@@ -14,7 +14,7 @@ import numpy as np
 from yawdesign.damper.design_space import Space
 from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.hunting.eigenvalues import MARGINS, motion_matrix
-from yawdesign.vehicle.elements import Mass
+from yawdesign.response.modes.named_modes import modes_at
 from yawdesign.vehicle.motions import Motion
 from yawdesign.vehicle.vehicle import Vehicle
 
@@ -125,22 +125,9 @@ def _followed(space: Space, condition: int, mode: CappingMode, start: Float, end
 
 
 def names_of(vehicle: Vehicle, modes: Sequence[CappingMode]) -> str:
-    """Return what modes are called, with their frequencies where two have the same name."""
-    names = [_name_of(vehicle, mode) for mode in modes]
-    numbered = [f"{name} at {mode.s.imag / (2 * np.pi):.3g} Hz" for name, mode in zip(names, modes, strict=True)]
-    return ", ".join(names if len({*names}) == len(names) else numbered)
-
-
-def _name_of(vehicle: Vehicle, mode: CappingMode) -> str:
-    """Return what a mode is called: after the bodies, of those with one name, that take the largest part in it."""
-    space = vehicle.folded_state_space
-    left, right = _vectors(vehicle, mode)
-    share: dict[str, complex] = {}
-    for k, part in zip(space.states_of(mode.motion.coordinates), left * right, strict=True):
-        if isinstance(owner := space.owners[k], Mass):
-            word = owner.name or owner.coordinate
-            share[word] = share.get(word, 0) + complex(part)
-    return max(share, key=lambda word: abs(share[word]))
+    """Return what modes are called."""
+    named = modes_at(vehicle)
+    return ", ".join(min(named, key=lambda one: abs(one.eigenvalue - mode.s)).name for mode in modes)
 
 
 def sensitivity(vehicle: Vehicle, mode: CappingMode, objective: str) -> dict[str, float]:

@@ -116,7 +116,7 @@ class Optimum(Result):
         Where modes cap the margin that the variables hardly move (less than a fifth over their bounds): the worst
         margin of all others, which is then the largest with at most 2 % of the largest margin given away [1/s], [-].
     capped_by : str or None
-        Names of those modes, such as ``"sway"``; with their frequencies where two have the same.
+        Names of those modes, such as ``"lower sway"``, as `modes` calls them.
     capping_sensitivity : mapping
         d ln margin / d ln p [-] of the first of them for every parameter p and the speed v, the largest first.
     cases : tuple of CaseVerdict
@@ -256,9 +256,9 @@ def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progres
 
 def _improver(space: Space, options: Mapping[str, Any]) -> Improver | LocalImprover:
     """Return the NLP of whole polynomials, or that of models where coefficients of so high a degree say too little."""
-    movable = space.model.movable(space.names)
-    degrees = [len(p) - 1 for motion in space.model.motions if motion.name in movable for p in motion.coefficients]
-    return (LocalImprover if space.pairs or max(degrees) > MOST_FACTORED else Improver)(space, options)
+    coupled, states = space.model.motions[0], space.model.states
+    large = len(states.states_of(coupled.coordinates)) > MOST_FACTORED
+    return (LocalImprover if space.pairs or large else Improver)(space, options)
 
 
 def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:

@@ -210,8 +210,8 @@ def stability_at(vehicle: Vehicle, variables: Collection[str] = ()) -> Stability
         Design variables; they decide which decoupled modes count in the margins.
     """
     C_s, movable = float(vehicle.C_s), vehicle.model.movable(variables)
-    polynomials = {motion.name: motion.polynomial(C_s) for motion in vehicle.motions}
-    s = {x.name: roots_of(polynomials[x.name], motion_eigenvalues(vehicle, x)) for x in vehicle.motions}
+    polynomials = vehicle.polynomials
+    s = {x.name: roots_of(polynomials[x.name], motion_eigenvalues(vehicle, x)) for x in vehicle.model.motions}
     every, moved = in_order(np.concatenate([*s.values()])), np.concatenate([s[name] for name in movable])
     exact = all(np.all(backward_error(p, s[name]) < EXACT) for name, p in polynomials.items())
     unstable = int(count_undamped(every))
@@ -234,7 +234,12 @@ def stability_at(vehicle: Vehicle, variables: Collection[str] = ()) -> Stability
 
 
 def roots_of(p: Polynomial, s: Complex) -> Complex:
-    """Return eigenvalues, polished where they are no roots of their polynomial, the least damped first."""
+    """Return eigenvalues, polished where they are no roots of their polynomial, the least damped first.
+
+    Roots at zero, which a polynomial without its lowest coefficients says exactly, have no rounding.
+    """
+    zeros = next((k for k, a in enumerate(p) if a != 0), 0)
+    s = np.where(np.argsort(np.argsort(np.abs(s), kind="stable"), kind="stable") < zeros, 0, s)
     return in_order(s if np.all(backward_error(p, s) < EXACT) else polished(p, s))
 
 

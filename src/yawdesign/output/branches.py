@@ -78,8 +78,8 @@ def _ends(
     column: CriticalColumn, other: CriticalColumn, taken: set[int], bottom: float, top: float
 ) -> Iterator[tuple[int, float]]:
     """Yield the values that the other place does not continue, with where they go: to a neighbour or out of sight."""
-    kinds, loose = column.kinds, [k for k in range(column.values.size) if k not in taken]
-    folded = [k for k in loose if k + 1 in loose and kinds[k] != kinds[k + 1]]
+    loose = [k for k in range(column.values.size) if k not in taken]
+    folded = _folded(column, other, loose)
     for k in loose:
         if k in folded or k - 1 in folded:
             pair = column.values[[k, k + 1] if k in folded else [k - 1, k]]
@@ -88,6 +88,19 @@ def _ends(
             yield k, bottom
         elif k == column.values.size - 1 and other.roots[other.values.size] == column.roots[k]:
             yield k, top
+
+
+def _folded(column: CriticalColumn, other: CriticalColumn, loose: list[int]) -> set[int]:
+    """Return the values that turn back into the next one, each in one fold.
+
+    First come those with the same count on both sides, which the other place has too.
+    """
+    kinds, roots, folded = column.kinds, column.roots, set[int]()
+    able = [k for k in loose if k + 1 in loose and kinds[k] != kinds[k + 1]]
+    for k in sorted(able, key=lambda k: (roots[k] != roots[k + 2], roots[k] not in other.roots)):
+        if not {k - 1, k, k + 1} & folded:
+            folded.add(k)
+    return folded
 
 
 def stable_areas(x: Float, columns: list[CriticalColumn], bottom: float, top: float) -> Iterator[Points]:

@@ -15,7 +15,7 @@ from yawdesign.problem import PARAMETERS, format_quantity
 if TYPE_CHECKING:
     from yawdesign.damper.forward import ForwardDesign
     from yawdesign.damper.optimise import Optimum, SingleOptimum
-    from yawdesign.damper.single_bogie import SingleBogie
+    from yawdesign.damper.single_bogie import Parting, SingleBogie
     from yawdesign.exports.write import Export
     from yawdesign.hunting.verdict import CaseVerdict, Mode, Stability
 
@@ -83,7 +83,7 @@ def stability_tables(result: "Stability") -> RenderableType:
             ("checked", verified(result.checked)),
         ],
     )
-    first = Text("The vehicle is ").append_text(verdict).append(".")
+    first = Text("The bogie is " if result.scope else "The vehicle is ").append_text(verdict).append(".")
     return Group(first, *scope_lines(result.scope), summary, *case_tables(result.cases), _modes(result.modes))
 
 
@@ -120,13 +120,15 @@ def _beside(result: "ForwardDesign", alone: "SingleBogie") -> RenderableType:
     stable = {None: "-", True: "yes", False: "NO"}
     table.add_row("is that C_s stable under the car body", "yes" if result.stable else "-", stable[alone.stable])
     low, high = alone.searched
-    lines = [
-        f"creep x {x.creep_factor:g}: "
-        + ("nowhere" if x.conicity is None else f"below conicity {x.conicity:.3g}" + " or more" * (x.conicity >= high))
-        for x in alone.partings
-    ]
-    where = f"The vehicle needs more than 1.1 times the damping of the single bogie ({speed(alone.speed)}, conicity "
-    return Group(table, Text(f"{where}{low:g} ... {high:g}): {'; '.join(lines)}."))
+    lines = [f"creep x {x.creep_factor:g}: {_conicities(x, low, high)}" for x in alone.partings]
+    where = f"of {low:g} ... {high:g} ({speed(alone.speed)}): {'; '.join(lines)}."
+    return Group(table, Text(f"The vehicle needs more than 1.1 times the single bogie's damping at conicities {where}"))
+
+
+def _conicities(parting: "Parting", low: float, high: float) -> str:
+    if parting.conicities == ((low, high),):
+        return "all that were looked at"
+    return ", ".join(f"{a:.3g} ... {b:.3g}" for a, b in parting.conicities) or "none"
 
 
 def _interval(low: float, high: float) -> str:
@@ -152,7 +154,7 @@ def _design_facts(result: "ForwardDesign") -> Table:
 def _critical(result: "ForwardDesign") -> list[Table]:
     if not result.critical:
         return []
-    table = titled("Critical values", "C_s", "frequency [Hz]", "above it the bogie is", "speed")
+    table = titled("Critical values", "C_s", "frequency [Hz]", "above it", "speed")
     for x in result.critical:
         becomes = {"neither": "still unstable"}.get(x.becomes, x.becomes)
         table.add_row(damping(x.C_s), f"{x.omega / (2 * pi):.4f}", becomes, speed(x.speed))

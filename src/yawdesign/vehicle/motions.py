@@ -35,21 +35,43 @@ class Motion:
     coefficients : tuple of tuple
         A polynomial in s, lowest power first, for every power of C_s [N s/m]. The highest coefficients may be zero
         where a damper has no damping. The coupled motion of the power bogie has degree 23 in s (21 as printed), that
-        of the trailer bogie 15, and both degree 1 in C_s.
+        of the trailer bogie 15, and both degree 1 in C_s; with a car body 50 ... 52 or 34 ... 36, and 2 in C_s. Empty
+        for a motion of a model, which has no numbers.
+    dampers : int
+        How many links of yaw dampers are in it: its degree in C_s.
     """
 
     name: str
     coordinates: frozenset[str]
-    coefficients: tuple[Polynomial, ...]
+    coefficients: tuple[Polynomial, ...] = ()
+    dampers: int = 0
 
     @property
     def varied(self) -> bool:
         """Whether a yaw damper reaches it."""
-        return len(self.coefficients) > 1
+        return self.dampers > 0
 
     def polynomial(self, C_s: Number) -> Polynomial:
         """Return its characteristic polynomial, lowest power of s first, with a yaw damping [N s/m]."""
         return reduce(lambda value, part: add(part, scale(value, C_s)), self.coefficients[::-1])
+
+
+def outlines(elements: Sequence[Single]) -> tuple[Motion, ...]:
+    """Return the independent motions as `motions` does, without their coefficients: only the graph is looked at."""
+    matrix, names = Determinant(polynomial_matrix(elements)), {x.own_name for x in _yaw_dampers(elements)}
+    return tuple(Motion(name, where, dampers=len(names & piece)) for name, where, piece in _parts(elements, matrix))
+
+
+def numbers_in(elements: Sequence[Single]) -> dict[str, list[Any]]:
+    """Return by the name of each motion the numbers that it is made of, but for C_s."""
+    dampers = {damper.own_name: _law(damper) for damper in _yaw_dampers(elements)}
+    entries = _without_laws(polynomial_matrix(_with_unit_laws(elements)), dampers)
+    found = {}
+    for name, _, piece in _parts(elements, Determinant(entries)):
+        inside = [p for (row, column), p in entries.items() if row in piece and column in piece]
+        inside += [p for damper, laws in dampers.items() if damper in piece for p in laws]
+        found[name] = [a for p in inside for a in p]
+    return found
 
 
 def motions(elements: Sequence[Single]) -> tuple[Motion, ...]:
@@ -74,7 +96,7 @@ def motions(elements: Sequence[Single]) -> tuple[Motion, ...]:
     found = []
     for name, coordinates, piece in _parts(elements, matrix):
         own = {damper: law for damper, law in dampers.items() if damper in piece}
-        found.append(Motion(name, coordinates, _coefficients(matrix, piece, own)))
+        found.append(Motion(name, coordinates, _coefficients(matrix, piece, own), len(own)))
     return tuple(found)
 
 

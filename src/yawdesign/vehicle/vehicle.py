@@ -12,7 +12,7 @@ from yawdesign.problem.parameters import CAR_BODY, bogie_keys, parameter_keys
 from yawdesign.problem.table import key_of
 from yawdesign.vehicle.catalogue import CATALOGUE, OVERTURNING, Parameters, elements
 from yawdesign.vehicle.elements import Element, Link, Mass, Single, folded, physical
-from yawdesign.vehicle.motions import Motion, motions, polynomials
+from yawdesign.vehicle.motions import Motion, motions, numbers_in, outlines, polynomials
 from yawdesign.vehicle.polynomials import Number, Polynomial, product, scale_variable
 from yawdesign.vehicle.state_space import StateSpace
 
@@ -68,7 +68,12 @@ class Model:
     @property
     def motions(self) -> tuple[Motion, ...]:
         """The motions of its vehicles: their names and coordinates, and which parameters they are made of."""
-        return _traced(self).motions
+        return _outlines(self)
+
+    @property
+    def states(self) -> StateSpace:
+        """The state space of its vehicles in half sums and half differences, which says where which state stands."""
+        return _states(self)
 
     @property
     def sources(self) -> Mapping[str, frozenset[str]]:
@@ -110,8 +115,18 @@ def _traced(model: Model) -> "Vehicle":
 
 
 @lru_cache
+def _states(model: Model) -> StateSpace:
+    return _traced(model).folded_state_space
+
+
+@lru_cache
+def _outlines(model: Model) -> tuple[Motion, ...]:
+    return outlines(_traced(model).folded)
+
+
+@lru_cache
 def _sources(model: Model) -> dict[str, frozenset[str]]:
-    numbers = {motion.name: [a for p in motion.coefficients for a in p] for motion in model.motions}
+    numbers = numbers_in(_traced(model).folded)
     return {name: frozenset().union(*(a for a in every if isinstance(a, Sources))) for name, every in numbers.items()}
 
 
@@ -228,6 +243,8 @@ class Vehicle:
 
         At one C_s this is half the work of `motions` for a vehicle with car body.
         """
+        if "motions" in self.__dict__:
+            return {motion.name: motion.polynomial(self.C_s) for motion in self.motions}
         return polynomials(self.folded)
 
     @property

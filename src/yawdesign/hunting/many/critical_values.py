@@ -46,7 +46,7 @@ def critical_field(sets: ParameterSets) -> CriticalField:
 
 def _is_linear(sets: ParameterSets) -> bool:
     """Return whether the polynomial is linear in C_s: there is one link of yaw dampers."""
-    return len(sets.model.motions[0].coefficients) == 2
+    return sets.model.motions[0].dampers == 1
 
 
 def recomputed(field: CriticalField, sets: ParameterSets, points: Iterable[int]) -> CriticalField:
