@@ -181,17 +181,33 @@ def optima(evaluations: int) -> None:
         limit = {"C_s": float(found.C_su)} if found.C_su else {}
         names = list(every)
 
-        def worst(x: np.ndarray, names: list[str] = names) -> np.ndarray:
+        def ratios(x: np.ndarray, names: list[str] = names) -> np.ndarray:
             s = np.linalg.eigvals(state_matrices({**p, **dict(zip(names, np.exp(x), strict=True))}))
-            return -np.min(-s.real / np.abs(s), axis=-1)
+            return np.sort(-s.real / np.abs(s), axis=-1)
 
         ends = [(np.log(low), np.log(min(high, limit.get(name, high)))) for name, (low, high) in every.items()]
-        size = 15 * len(names)
-        other, evolved = seconds(lambda ends=ends, size=size: differential_evolution(
-            worst, ends, popsize=15, maxiter=max(1, evaluations // size - 1), tol=0, atol=0, polish=False, vectorized=True,
-            updating="deferred", rng=0), 1)  # fmt: skip
+        other, least = seconds(lambda ends=ends: evolved(lambda x: -ratios(x)[..., 0], ends, evaluations), 1)
         line(f"optimise in {', '.join(names)}", f"{warm:.1f} s ({cold:.1f} s cold)", f"differential evolution, {evaluations}",
-             f"{other:.1f} s", f"{other / warm:.1f}", f"margin {found.margin:.6f} and {-float(evolved.fun):.6f}")  # fmt: skip
+             f"{other:.1f} s", f"{other / warm:.1f}", f"worst ratio {found.margin:.6f} and {least:.6f}")  # fmt: skip
+        if found.next_margin is None:
+            continue
+        floor = 0.98 * least  # what is given away for the modes behind the one that caps the margin
+
+        def behind(x: np.ndarray, floor: float = floor) -> np.ndarray:
+            found = ratios(x)
+            return np.where(found[..., 0] >= floor, -found[..., 2], 1 + floor - found[..., 0])
+
+        other, second = seconds(lambda ends=ends: evolved(behind, ends, evaluations), 1)
+        line("the same: all other modes, worst ratio at least 98 %", "in it", f"differential evolution, {evaluations}",
+             f"{other:.1f} s", "", f"ratio {found.next_margin:.6f} and {second:.6f}")  # fmt: skip
+
+
+def evolved(objective: Callable[[np.ndarray], np.ndarray], ends: list[tuple[float, float]], evaluations: int) -> float:
+    size = 15 * len(ends)
+    found = differential_evolution(
+        objective, ends, popsize=15, maxiter=max(1, evaluations // size - 1),
+        tol=0, atol=0, polish=False, vectorized=True, updating="deferred", rng=0)  # fmt: skip
+    return -float(found.fun)
 
 
 def main() -> None:
