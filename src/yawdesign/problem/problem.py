@@ -110,9 +110,10 @@ class Problem:
         if self.car_body is None:
             return None
         vertical = {key: getattr(self.car_body, key) for key in VERTICAL} if self.bogie.I_b is not None else {}
-        kept = {key: variable for key, variable in self.design.variables.items() if key in bogie_keys(self.bogie.kind)}
-        design = replace(self.design, variables=kept)
-        return replace(self, car_body=None, bogie=replace(self.bogie, **vertical), cases=(), design=design)
+        bogie = replace(self.bogie, **vertical)
+        keys = present(bogie.parameters())
+        variables = {key: variable for key, variable in self.design.variables.items() if key in keys}
+        return replace(self, car_body=None, bogie=bogie, cases=(), design=replace(self.design, variables=variables))
 
     @property
     def keys(self) -> tuple[str, ...]:
