@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import yawdesign as yd
 from yawdesign.damper import nlp, search
 from yawdesign.damper.design_space import Space, between, fraction, scale
-from yawdesign.damper.worst_margin import FASTEST
+from yawdesign.hunting.many.measure import FASTEST
 from yawdesign.problem import PARAMETERS
 from yawdesign.problem.parameters import parameter_keys
 from yawdesign.vehicle.vehicle import Model

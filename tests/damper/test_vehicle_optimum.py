@@ -10,9 +10,9 @@ from yawdesign.damper.capping import GIVEN_AWAY, at_design, capping_modes, names
 from yawdesign.damper.design_space import Space
 from yawdesign.damper.local_nlp import LocalImprover
 from yawdesign.damper.second_route import _in_decimals, hurwitz_positive, margin_by_routh
-from yawdesign.damper.worst_margin import eigenvalue_margins
 from yawdesign.hunting.eigenvalues import state_matrix
 from yawdesign.hunting.many.margins import exceeds
+from yawdesign.hunting.many.measure import eigenvalue_margins
 from yawdesign.problem.parameters import CarBody
 from yawdesign.vehicle.vehicle import Model, Vehicle
 

@@ -5,21 +5,29 @@ variables, so every point of the cube with ``C_su`` above the lower bound is fea
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from yawdesign.damper.curving import LOWERING, RAISING, curving_limit, resistance_scale, resisting_moment
-from yawdesign.damper.worst_margin import WorstMargin
+from yawdesign.damper.demands import Demand, Demanded, demands
 from yawdesign.hunting.arrays import Bools, Float
+from yawdesign.hunting.many.measure import Measure
 from yawdesign.hunting.many.parameter_sets import ParameterSets
+from yawdesign.hunting.many.worst_margin import WorstMargin
+from yawdesign.hunting.worst_condition import worst_conditions
 from yawdesign.problem import PARAMETERS, Curve, Problem
-from yawdesign.problem.conditions import Condition, conditions, distinct
+from yawdesign.problem.condition import Condition
+from yawdesign.problem.conditions import ConditionSet, condition_set, distinct
 from yawdesign.vehicle.vehicle import Model
 
 Values = dict[str, Any]
+
+# The merit of a design that misses a requirement is less than that of any that meets them: -MISSED (1 + shortfall).
+MISSED = 1e6
+WORSE = 2e-4  # a condition is added to those looked at if the margin is lower there by so much, relative
 
 
 @dataclass(frozen=True)
@@ -34,14 +42,18 @@ class Space:
         So many pairs of roots, those of the least margins, are left out of the margin that is to be largest.
     floor : float, optional
         What the margin of all roots must reach [1/s], [-].
-    anchor : mapping, optional
-        Values of the variables of a design that reaches it.
+    anchors_given : tuple of mapping
+        Values of the variables of designs that any search must know.
+    known : tuple of tuple of Condition, optional
+        The conditions that are looked at: those of the margin, and those of each demand. By default the corners of
+        all ranges.
     """
 
     problem: Problem
     pairs: int = 0
     floor: float = -np.inf
-    anchor: Mapping[str, float] | None = None
+    anchors_given: tuple[Mapping[str, float], ...] = ()
+    known: tuple[tuple[Condition, ...], ...] = ()
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -71,19 +83,60 @@ class Space:
         return Model.of(self.problem)
 
     @cached_property
-    def conditions(self) -> tuple[Condition, ...]:
+    def condition_set(self) -> ConditionSet:
         """The conditions under which everything must hold."""
-        return conditions(self.problem)
+        return condition_set(self.problem)
+
+    @cached_property
+    def measure(self) -> Measure:
+        """The margin that is to be largest, under one condition."""
+        return Measure(self.objective, self.names, pairs=self.pairs, floor=self.floor)
+
+    @cached_property
+    def demands(self) -> tuple[Demand, ...]:
+        """What every design must reach."""
+        return demands(self.problem, self.model)
+
+    @cached_property
+    def conditions(self) -> tuple[Condition, ...]:
+        """The conditions that are looked at."""
+        return self.known[0] if self.known else self.condition_set.corners
+
+    @cached_property
+    def demanded(self) -> tuple[Demanded, ...]:
+        """The demands under the conditions that are looked at."""
+        known = self.known[1:] if self.known else [demand.conditions.corners for demand in self.demands]
+        return tuple(Demanded(demand, some) for demand, some in zip(self.demands, known, strict=True))
 
     @cached_property
     def loads(self) -> tuple[Condition, ...]:
         """The conditions that differ for the curve, through which every bogie runs at the curve's own speed."""
-        return distinct(self.conditions, {"v"})
+        return distinct(self.condition_set.corners, {"v", "lambda", "creep_factor", "f_11", "f_22"})
 
     @cached_property
     def worst_margin(self) -> WorstMargin:
         """The margin that is to be largest."""
-        return WorstMargin(self.conditions, self.objective, self.names, self.pairs, self.floor)
+        return WorstMargin(self.conditions, self.measure)
+
+    def with_worst(self, x: Float) -> "Space | None":
+        """Return the space that also looks at the conditions in which a design is worse than in those known.
+
+        None if there are none by more than a share of `WORSE`: a search has found none.
+        """
+        values = {name: float(np.squeeze(value)) for name, value in self.values(x).items()}
+        sets = ParameterSets(self.model, values, 1)
+        looked = [(self.measure, self.condition_set, self.worst_margin.of(sets), self.conditions)]
+        looked += [
+            (one.demand.measure, one.demand.conditions, one.worst_of(sets), one.conditions) for one in self.demanded
+        ]
+        known, more = [], False
+        for measure, conditions, least, have in looked:
+            found = worst_conditions(self.model, values, conditions, measure) if conditions.ranges else ()
+            limit = float(least[0]) - WORSE * abs(float(least[0]))
+            new = [worst.condition for worst in found if worst.margin < limit and worst.condition not in have]
+            known.append((*have, *new))
+            more = more or bool(new)
+        return replace(self, known=tuple(known)) if more else None
 
     def bounds(self, name: str) -> tuple[float, float]:
         """Return lower and upper bound of a variable in SI, as written."""
@@ -123,8 +176,7 @@ class Space:
         points, p = [self.gentlest], {name: float(v) for name, v in self.problem.parameters().items()}
         if all(name in p and self.bounds(name)[0] <= p[name] <= self.bounds(name)[1] for name in self.names):
             points.append(self.coordinates(p))
-        if self.anchor is not None:
-            points.append(self.coordinates(self.anchor))
+        points += [self.coordinates(given) for given in self.anchors_given]
         return np.array(points).T
 
     def feasible(self, values: Values) -> Bools:
@@ -138,23 +190,43 @@ class Space:
         return kept
 
     def beats(self, values: Values, level: Float | float) -> Bools:
-        """Return where a design is feasible and its margin exceeds a level; a ratio below zero counts as zero.
+        """Return where the merit of a design exceeds a level; a ratio below zero counts as zero.
 
         Parameters
         ----------
         values : mapping
             Parameters and C_s in SI units: numbers, or arrays of one shape (n,).
         level : number or array
-            [1/s] or [-].
+            [1/s] or [-]; below `MISSED` that of designs that miss a requirement.
         """
         sets, shape = self._sets(values)
-        exceeded = self.worst_margin.exceeds(sets, np.broadcast_to(np.asarray(level, dtype=float), sets.size))
-        return exceeded.reshape(shape) & self.feasible(values)
+        level = np.broadcast_to(np.asarray(level, dtype=float), sets.size)
+        out = np.broadcast_to(self.feasible(values), shape).reshape(-1).copy()
+        for one in self.demanded:
+            left = np.flatnonzero(out)
+            short = np.maximum(-(level[left] + MISSED) / MISSED, 0.0)
+            out[left] = one.met_within(sets.part(left), short)
+        left = np.flatnonzero(out & (level > -MISSED)) if self.demanded else np.arange(sets.size)
+        out[left] &= self.worst_margin.exceeds(sets.part(left), level[left])
+        return out.reshape(shape)
+
+    def beats_at(self, x: Float, level: Float) -> Bools:
+        """Return the same at points of the cube, shape (variables, points)."""
+        return np.broadcast_to(self.beats(self.values(x), level), x.shape[1:])
 
     def margins(self, values: Values) -> Float:
-        """Return the margins, minus infinity where the curve's limit is exceeded. Parameters as in `beats`."""
+        """Return the merits: margins, less than -`MISSED` where a requirement is missed.
+
+        Minus infinity where the curve's limit is exceeded. Parameters as in `beats`.
+        """
         sets, shape = self._sets(values)
-        return np.where(self.feasible(values), self.worst_margin.of(sets).reshape(shape), -np.inf)
+        merit = np.full(sets.size, np.nan)
+        if self.demanded:
+            short = np.max([one.shortfall(sets) for one in self.demanded], axis=0)
+            merit = np.where(short > 0, -MISSED * (1 + short), np.nan)
+        met = np.isnan(merit)
+        merit[met] = self.worst_margin.of(sets.part(met))
+        return np.where(self.feasible(values), merit.reshape(shape), -np.inf)
 
     def under_each(self, values: Values) -> Float:
         """Return the margins under every condition, shape (conditions, n). Parameters as in `beats`."""

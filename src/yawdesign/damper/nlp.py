@@ -18,11 +18,11 @@ import numpy as np
 
 from yawdesign.damper.curving import resistance_scale, resisting_moment
 from yawdesign.damper.design_space import Space, Values, between, fraction, scale
-from yawdesign.damper.worst_margin import FASTEST
 from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.eigenvalues import roots
+from yawdesign.hunting.many.measure import FASTEST
 from yawdesign.hunting.routh import TIME_UNIT
-from yawdesign.problem.conditions import Condition
+from yawdesign.problem.condition import Condition
 from yawdesign.vehicle.polynomials import Polynomial, product, scale_variable, shift, trim
 
 OPTIONS: Mapping[str, Any] = {

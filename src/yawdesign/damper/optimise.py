@@ -12,16 +12,16 @@ from yawdesign.damper.design_space import Space, fraction, scale
 from yawdesign.damper.forward import ForwardDesign, design, forward_design, others_stable, resistance
 from yawdesign.damper.local_nlp import LocalImprover
 from yawdesign.damper.nlp import Improver
-from yawdesign.damper.search import distinct, refine, search
+from yawdesign.damper.search import search
 from yawdesign.damper.second_route import AGREE, hurwitz_positive, margin_by_routh
 from yawdesign.damper.status import Status
-from yawdesign.damper.worst_margin import WorstMargin
+from yawdesign.damper.stencils import distinct, refine
 from yawdesign.hunting.arrays import Float
+from yawdesign.hunting.many.measure import Measure
 from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.verdict import CaseVerdict, Mode, Stability, judged, stability_at
 from yawdesign.problem import Curve, Problem, ProblemError
 from yawdesign.problem.arguments import Progress
-from yawdesign.problem.conditions import Condition
 from yawdesign.problem.result import Result
 from yawdesign.problem.table import as_seed
 from yawdesign.vehicle.vehicle import Vehicle
@@ -203,7 +203,7 @@ def optimise(
         # Numbers, and not x, go on: the curve's limit stays where it is.
         least, values = float(np.squeeze(space.margins_at(x[:, None]))), space.values(x)
         anchor = {name: float(values[name]) for name in space.names}
-        space = Space(problem, pairs=len(capping), floor=(1 - GIVEN_AWAY) * least, anchor=anchor)
+        space = Space(problem, pairs=len(capping), floor=(1 - GIVEN_AWAY) * least, anchors_given=(anchor,))
         x = _found(space, seed, options or {}, progress)
     return replace(_answer(space, x, capping), single_bogie=_single(space, seed, options))
 
@@ -299,7 +299,7 @@ def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
 
 def _next_margins(space: Space, vehicles: Sequence[Vehicle]) -> tuple[float, float]:
     """Return the worst margin of all modes but those that cap it, by eigenvalues and by Routh's array."""
-    others = WorstMargin([Condition(())], space.objective, space.names, space.pairs)
+    others = Measure(space.objective, space.names, pairs=space.pairs)
     margin = min(float(others.of(ParameterSets(space.model, vehicle.p, 1))[0]) for vehicle in vehicles)
     return margin, margin_by_routh(space, vehicles, margin, space.pairs)
 

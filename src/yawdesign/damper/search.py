@@ -13,6 +13,7 @@ from typing import Self
 import numpy as np
 
 from yawdesign.damper.design_space import Space
+from yawdesign.damper.stencils import refine
 from yawdesign.hunting.arrays import Float, Index
 from yawdesign.problem.arguments import Progress
 
@@ -24,7 +25,7 @@ OTHERS = 4900  # points in the variables other than C_s
 LINE = 72  # points along C_s
 GAIN = 1e-4  # what a cell's best must be beaten by, relative: smaller differences are left to the refinement
 MOST_LOOKS = 40  # at the points of a block; as half of them are better than any one, about ten are needed
-MOST_TRIES = 12  # the same for a stencil, where near an optimum verdicts and margins differ by rounding
+LOWEST = -1e9  # level of cells without a point: less than any merit
 MOST_SPLIT = 9  # variables whose axes are divided into cells: their number doubles with each
 
 
@@ -76,8 +77,8 @@ def search(space: Space, seed: int, progress: Progress) -> Float:
 def _look(space: Space, cells: _DesignCells, x: Float) -> None:
     """Look at points in any order, and keep the best one of every cell."""
     for _ in range(MOST_LOOKS):
-        level = np.maximum(cells.margin[cells.index(x)], -1e3)
-        x = x[:, space.beats(space.values(x), level + GAIN * np.abs(level))]
+        level = np.maximum(cells.margin[cells.index(x)], LOWEST)
+        x = x[:, space.beats_at(x, level + GAIN * np.abs(level))]
         if not x.shape[1]:
             break
         _, one = np.unique(cells.index(x), return_index=True)
@@ -115,75 +116,3 @@ def _others(d: int, total: int, rng: np.random.Generator) -> Float:
     axes = np.meshgrid(*[np.linspace(0, 1, n)] * d, indexing="ij")
     jitter = rng.random((d, 1)) - 0.5
     return np.clip(np.stack([axis.ravel() for axis in axes]) + jitter / n, 0, 1)
-
-
-def refine(
-    space: Space,
-    x: Float,
-    margin: Float,
-    rng: np.random.Generator,
-    *,
-    radius: float = 0.03,
-    until: float = 1e-5,
-    rounds: int = 40,
-    points: int = 192,
-    progress: Progress = lambda text, part: None,
-) -> Float:
-    """Return points improved by shrinking random stencils, all at once, the best first.
-
-    Each point has a radius of its own, which grows with success and shrinks without, until it is small enough or the
-    rounds are over. Half of a stencil follows the
-    last successful step, which is how it walks along a ridge. Points that have come close to a better one are dropped.
-    """
-    d, n = x.shape
-    x, margin, size, step = x.copy(), margin.copy(), np.full(n, radius), np.zeros((d, n))
-    for count in range(rounds):
-        k = np.flatnonzero(size > until)
-        if not k.size:
-            break
-        progress("refining the best designs", count / rounds)
-        trial = _stencil(x[:, k], size[k], step[:, k], points, rng)
-        better, value = _best_of(space, trial, margin[k])
-        won = value > margin[k]
-        step[:, k] = np.where(won, better - x[:, k], step[:, k] * 0.5)
-        x[:, k], margin[k] = np.where(won, better, x[:, k]), np.where(won, value, margin[k])
-        size[k] = np.where(won, np.minimum(1.5 * size[k], 0.2), 0.7 * size[k])
-        keep = distinct(x, margin, size)
-        x, margin, size, step = x[:, keep], margin[keep], size[keep], step[:, keep]
-    return x[:, np.argsort(-margin, kind="stable")]
-
-
-def _stencil(x: Float, size: Float, step: Float, points: int, rng: np.random.Generator) -> Float:
-    d, n = x.shape
-    noise = rng.standard_normal((d, n, points)) * size[:, None] * rng.random((1, n, points)) ** 2
-    along = step[:, :, None] * rng.exponential(1.5, (1, n, points)) * (np.arange(points) % 2)
-    return np.asarray(np.clip(x[:, :, None] + noise + along, 0, 1))
-
-
-def _best_of(space: Space, trial: Float, level: Float) -> tuple[Float, Float]:
-    """Return the best point of each stencil and its margin, at least the given level, found with verdicts."""
-    d, n, m = trial.shape
-    x, owner = trial.reshape(d, -1), np.repeat(np.arange(n), m)
-    best, margin = trial[:, :, 0].copy(), level.copy()
-    for _ in range(MOST_TRIES):
-        beats = space.beats(space.values(x), margin[owner])
-        x, owner = x[:, beats], owner[beats]
-        if not len(owner):
-            break
-        row, one = np.unique(owner, return_index=True)
-        found = space.margins_at(x[:, one])
-        better = found > margin[row]
-        best[:, row[better]], margin[row[better]] = x[:, one[better]], found[better]
-        x, owner = np.delete(x, one, axis=1), np.delete(owner, one)
-    return best, margin
-
-
-def distinct(x: Float, margin: Float, size: Float) -> Index:
-    """Return the points to go on with: none close to a better one, none ten per cent behind late."""
-    keep: list[int] = []
-    for k in np.argsort(-margin, kind="stable"):
-        near = any(np.max(np.abs(x[:, k] - x[:, j])) < max(size[k], 1e-3) for j in keep)
-        late = bool(keep) and size[k] < 1e-3 and margin[k] < margin[keep[0]] - 0.1 * abs(margin[keep[0]])
-        if not near and not late:
-            keep.append(int(k))
-    return np.array(keep, dtype=np.intp)

@@ -11,7 +11,7 @@ import numpy as np
 from yawdesign.hunting.arrays import Bools, Float
 from yawdesign.hunting.many.critical_values import critical_field
 from yawdesign.hunting.many.parameter_sets import ParameterSets
-from yawdesign.problem.conditions import CREEP
+from yawdesign.problem.condition import CREEP
 from yawdesign.vehicle.vehicle import Vehicle
 
 CREEP_FACTORS = (1.0, 0.7, 0.5)

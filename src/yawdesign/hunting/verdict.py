@@ -20,7 +20,8 @@ from yawdesign.hunting.routh import count_unstable
 from yawdesign.hunting.scope import scope
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.cases import Case
-from yawdesign.problem.conditions import Condition, conditions
+from yawdesign.problem.condition import Condition
+from yawdesign.problem.conditions import conditions
 from yawdesign.problem.result import Result
 from yawdesign.vehicle.elements import Link, parted
 from yawdesign.vehicle.polynomials import Polynomial

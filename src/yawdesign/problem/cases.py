@@ -65,15 +65,20 @@ class Case:
     name: str
     changes: tuple[Change, ...]
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the numbers that it changes; of one bogie's yaw dampers the share of C_s."""
+        pairs = [change.key.rpartition(".") for change in self.changes]
+        return tuple(f"{bogie}.{SHARE if key == 'C_s' else key}" if bogie else key for bogie, _, key in pairs)
+
     def applied(self, p: Mapping[str, Any]) -> dict[str, Any]:
         """Return parameters with this fault in them; numbers of any type.
 
         The yaw dampers of one bogie become a share of C_s, in whose powers the motions are written.
         """
         out = dict(p)
-        for change in self.changes:
+        for change, name in zip(self.changes, self.names, strict=True):
             bogie, _, key = change.key.rpartition(".")
-            name = f"{bogie}.{SHARE if key == 'C_s' else key}" if bogie else key
             if bogie and key == "C_s":
                 out[name] = change.value if change.share else change.value / p[key]
             else:

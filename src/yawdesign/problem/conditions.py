@@ -1,62 +1,114 @@
-"""The conditions under which everything must hold: plain data, changes to the parameters, the speed among them."""
+"""The conditions of a problem as one set: every combination of what is listed, and every value of its ranges."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import product
+from math import prod
 from typing import Any
 
+from .condition import CREEP as CREEP
+from .condition import TOLERANCE, Condition, Load
+from .condition import applied as applied
+from .diagnostics import ProblemError
 from .problem import Problem
+from .running import SpeedRange
 
-CREEP = ("f_11", "f_22")  # what `creep_factor` multiplies
+MOST_LISTED = 10_000  # combinations, ends of ranges among them
 
 
 @dataclass(frozen=True)
-class Condition:
-    """One running condition.
+class ConditionSet:
+    """The conditions under which everything must hold.
 
     Parameters
     ----------
-    changes : tuple of (name, value)
-        In SI units: a running speed ``v``, a parameter that is replaced, or ``creep_factor``, which multiplies both
-        creep coefficients.
+    lists : tuple of Condition
+        Every combination of listed values and loads.
+    ranges : tuple of (name, (low, high))
+        Every value between both ends comes with each of them, in SI units [SI].
+    steps : int
+        Number of speeds of the first look, where the speed is a range.
     """
 
-    changes: tuple[tuple[str, float], ...]
+    lists: tuple[Condition, ...]
+    ranges: tuple[tuple[str, tuple[float, float]], ...] = ()
+    steps: int = 11
 
     @property
-    def speed(self) -> float:
-        """Running speed [m/s]."""
-        return dict(self.changes)["v"]
+    def corners(self) -> tuple[Condition, ...]:
+        """Every combination of what is listed and of the ends of the ranges."""
+        return self._with(dict(self.ranges))
 
     @property
-    def described(self) -> dict[str, float]:
-        """Its values by the names that a problem file uses: ``speed`` [m/s], and SI values of others."""
-        return {"speed" if name == "v" else name: float(value) for name, value in self.changes}
+    def first_look(self) -> tuple[Condition, ...]:
+        """The corners, and the speeds between them."""
+        ends: dict[str, tuple[float, ...]] = dict(self.ranges)
+        if "v" in ends:
+            low, high = ends["v"]
+            ends["v"] = SpeedRange(min=low, max=high, steps=self.steps).values
+        return self._with(ends)
 
-    def applied(self, p: Mapping[str, Any]) -> dict[str, Any]:
-        """Return parameters with this condition in them."""
-        return applied(p, self.changes)
+    def _with(self, values: Mapping[str, tuple[float, ...]]) -> tuple[Condition, ...]:
+        combinations = [dict(zip(values, each, strict=True)) for each in product(*values.values())]
+        return tuple(_speed_first(each.with_values(more)) for each in self.lists for more in combinations)
 
-    def without(self, names: Collection[str]) -> Condition:
-        """Return what remains of it where other values of some names are given: those of an axis of a sweep."""
-        return Condition(tuple(change for change in self.changes if change[0] not in names))
+    def at(self, place: int, values: Mapping[str, float]) -> Condition:
+        """Return the condition with given values of the ranges, and what is listed at a place."""
+        return _speed_first(self.lists[place].with_values(values))
+
+    def without(self, names: Collection[str]) -> ConditionSet:
+        """Return what remains where other values of some names are given."""
+        gone = {*names, *(("creep_factor",) if set(CREEP) & set(names) else ())}
+        ranges = tuple(x for x in self.ranges if x[0] not in gone)
+        return ConditionSet(distinct(self.lists, names), ranges, self.steps)
+
+    def with_speeds(self, low: float, high: float) -> ConditionSet:
+        """Return the same conditions at every speed between two [m/s]."""
+        lists = distinct(self.lists, {"v"})
+        others = tuple(x for x in self.ranges if x[0] != "v")
+        return ConditionSet(lists, (("v", (low, high)), *others), self.steps)
+
+    @property
+    def is_one(self) -> bool:
+        """Whether there is no other condition than one."""
+        return len(self.lists) == 1 and not self.ranges
 
 
-def applied(p: Mapping[str, Any], changes: Iterable[tuple[str, Any]]) -> dict[str, Any]:
-    """Return parameters with changes in them, in their order; numbers of any type."""
-    out = dict(p)
-    for name, value in changes:
-        if name == "creep_factor":
-            out |= {key: out[key] * value for key in CREEP}
-        else:
-            out[name] = value
-    return out
+def _speed_first(condition: Condition) -> Condition:
+    return replace(condition, changes=tuple(sorted(condition.changes, key=lambda change: change[0] != "v")))
+
+
+def condition_set(problem: Problem) -> ConditionSet:
+    """Return the conditions of a problem, its speeds among them."""
+    given, speed = problem.conditions, problem.speed
+    lists: dict[str, tuple[float, ...]] = {} if isinstance(speed, SpeedRange) else {"v": problem.speeds}
+    lists |= dict(given.values)
+    ranges: dict[str, tuple[float, float]] = {}
+    if isinstance(speed, SpeedRange):
+        ranges["v"] = (speed.min, speed.max)
+    ranges |= dict(given.ranges)
+    ranges |= {f"{TOLERANCE}{name}": (-share, share) for name, share in given.tolerance}
+    loads: tuple[Load | None, ...] = given.loads or (None,)
+    steps = speed.steps if isinstance(speed, SpeedRange) else 11
+    _check_size(lists, ranges, loads)
+    combinations = [tuple(zip(lists, each, strict=True)) for each in product(*lists.values())]
+    every = tuple(Condition(changes, load) for changes in combinations for load in loads)
+    return ConditionSet(every, tuple(ranges.items()), steps)
+
+
+def _check_size(lists: Mapping[str, Any], ranges: Mapping[str, Any], loads: Collection[Any]) -> None:
+    size = prod(len(values) for values in lists.values()) * len(loads) * 2 ** len(ranges)
+    if size > MOST_LISTED:
+        raise ProblemError(
+            f"conditions: every combination of them, with the ends of ranges, makes {size}: at most {MOST_LISTED}"
+        )
 
 
 def conditions(problem: Problem) -> tuple[Condition, ...]:
-    """Return the conditions of a problem: its speed, or the speeds of its range."""
-    return tuple(Condition((("v", v),)) for v in problem.speeds)
+    """Return the conditions of a problem that are looked at first: of ranges their ends, and some speeds between."""
+    return condition_set(problem).first_look
 
 
 def distinct(conditions: Iterable[Condition], given: Collection[str]) -> tuple[Condition, ...]:

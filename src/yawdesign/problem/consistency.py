@@ -6,8 +6,10 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from itertools import chain
 
 from .cases import Case, outside
+from .condition import CREEP, CREEP_FACTOR, Conditions
 from .diagnostics import Diagnostic, unknown_key
 from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, NO_ROLL, PARAMETERS, ROLL_NEEDS_IT, VERTICAL
+from .requirements import Requirement, without_cases
 from .table import RIGID
 
 GRAVITY = 9.80665  # [m/s^2], the standard acceleration of free fall
@@ -22,7 +24,9 @@ def misfits(
     car_body: Values | None,
     curve: bool,
     variables: Iterable[str],
-    cases: Iterable[Case],
+    cases: Collection[Case],
+    conditions: Conditions,
+    requirements: tuple[Requirement, ...],
 ) -> Iterator[Diagnostic]:
     """Yield what does not fit together, by dotted names.
 
@@ -36,9 +40,14 @@ def misfits(
         Whether there is a curve.
     variables : iterable of str
         Keys of the design variables.
-    cases : iterable of Case
+    cases : collection of Case
         The faults.
+    conditions : Conditions
+        Under which everything must hold.
+    requirements : tuple of Requirement
+        What must be reached.
     """
+    variables = tuple(variables)
     yield from _vertical_suspension(bogie, car_body)
     if car_body is not None and equations == "as-printed":
         text = "the printed equations have no car body: write reciprocal, or remove car_body"
@@ -51,6 +60,31 @@ def misfits(
         if key not in present(given):
             yield Diagnostic(key=f"design.variables.{key}", message=why_absent(key, kind, given))
     yield from chain.from_iterable(_of_case(case, kind, given, car_body is not None) for case in cases)
+    yield from _of_conditions(conditions, kind, given, variables)
+    yield from without_cases(requirements, cases)
+
+
+def _of_conditions(
+    conditions: Conditions, kind: str, given: Values, variables: Collection[str]
+) -> Iterator[Diagnostic]:
+    names = [(key, key) for key in conditions.keys if key != CREEP_FACTOR.key]
+    names += [(f"load.{load.name}.{key}", key) for load in conditions.loads for key, _ in load.changes]
+    names += [(f"tolerance.{key}", key) for key, _ in conditions.tolerance]
+    for place, key in names:
+        text = ""
+        if key not in present(given):
+            text = why_absent(key, kind, given)
+        elif key in variables and not place.startswith("tolerance."):
+            text = f"is a design variable: a deviation of it is a tolerance, such as tolerance: {{{key}: 10 %}}"
+        elif not place.startswith(("tolerance.", "load.")) and key in CREEP and CREEP_FACTOR.key in conditions.keys:
+            text = f"stands beside {CREEP_FACTOR.key}, which multiplies it: give one of the two"
+        if text:
+            yield Diagnostic(key=f"conditions.{place}", message=text)
+    for load in conditions.loads:
+        for key, _ in load.changes:
+            if key in conditions.keys:
+                text = f"stands in conditions.{key} too: give one of the two"
+                yield Diagnostic(key=f"conditions.load.{load.name}.{key}", message=text)
 
 
 def _vertical_suspension(bogie: Values, car_body: Values | None) -> Iterator[Diagnostic]:

@@ -39,7 +39,11 @@ def _written_values(data: Mapping[str, Any]) -> Iterator[tuple[Path, Parameter, 
     for key, value in data["bogie"].get("creep", {}).items():
         yield ("bogie", "creep", key), CREEP[key], value
     speed = data["speed"]
-    ends = {("speed", end): speed[end] for end in ("min", "max")} if isinstance(speed, dict) else {("speed",): speed}
+    ends: dict[Path, Any] = {("speed",): speed}
+    if isinstance(speed, dict):
+        ends = {("speed", end): speed[end] for end in ("min", "max")}
+    elif isinstance(speed, list):
+        ends = {("speed", k): entry for k, entry in enumerate(speed)}
     yield from ((path, SPEED, value) for path, value in ends.items())
     for key, bounds in data.get("design", {}).get("variables", {}).items():
         for end, value in bounds.items():

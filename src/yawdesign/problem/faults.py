@@ -10,6 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from .cases import read_cases
+from .condition import Conditions, read_conditions
 from .consistency import Values, misfits
 from .creep import CREEP, MADE
 from .diagnostics import Diagnostic, ProblemError, nearest, suggestion
@@ -19,9 +20,9 @@ from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, bogie_keys, incom
 from .running import CURVE
 from .table import Parameter
 
-_NO_ROBUST = "robust design is not part of this version: remove this key to get the answer for the nominal problem"
+_NO_ROBUST = "is not a known key: what must hold stands under conditions, such as lambda: [0.05, 0.40]"
 _TAGS = ("<range>", "<value>")
-_TOP = ("title", "equations", "bogie", "car_body", "speed", "curve", "cases", "design")
+_TOP = ("title", "equations", "bogie", "car_body", "speed", "curve", "conditions", "cases", "requirements", "design")
 _ROWS: Mapping[str, Mapping[str, Parameter]] = {"bogie": BOGIE, "car_body": CAR_BODY, "curve": CURVE}
 _AT_KEY = ("bogie", "car_body", "design")  # where parts do not fit together, it is a key that should not be there
 
@@ -63,6 +64,8 @@ def disagreements(data: Mapping[str, Any], kind: str) -> Iterator[Fault]:
         curve="curve" in data,
         variables=[key for key in known if isinstance(variables, dict) and key in variables],
         cases=read_cases(data["cases"])[0] if "cases" in data else (),
+        conditions=read_conditions(data["conditions"])[0] if "conditions" in data else Conditions(),
+        requirements=(),
     )
     yield from placed(data, chain(incomplete(bogie), found))
 
@@ -125,7 +128,9 @@ def _home(key: str, around: Path, kind: str) -> Path | None:
 
 def _path(loc: tuple[int | str, ...]) -> Path:
     """Return the path in the file: pydantic also names the branch it took where a speed may be a range."""
-    return loc[:1] + loc[2:] if loc[:1] == ("speed",) and loc[1:2] and loc[1] in _TAGS else loc
+    if loc[:1] == ("speed",) and loc[1:2] and loc[1] in _TAGS:
+        return loc[:1] + loc[2:]
+    return loc
 
 
 def _told(found: Any, path: Path, kind: str) -> Iterator[Fault]:

@@ -23,12 +23,14 @@ from pydantic import (
 from pydantic import create_model as make
 
 from .cases import as_cases
+from .condition import Conditions, as_conditions
 from .creep import CREEP, MADE, creep_coefficients
 from .diagnostics import Mistakes, ProblemError
 from .parameters import BOGIE, CAR_BODY, KINDS, PARAMETERS, Bogie, CarBody, bogie_keys
 from .patterns import unit_pattern
 from .problem import EQUATIONS, Problem
-from .running import CURVE, LOADS, SPEED, STEPS, Curve, SpeedRange
+from .requirements import as_requirements
+from .running import CURVE, LOADS, SPEED, STEPS, Curve, SpeedRange, as_speeds
 from .table import Parameter, as_choice, as_count, as_switch, as_text, check_end, field_name
 from .units import kind_of
 from .variables import OBJECTIVES, Design, Variable
@@ -137,7 +139,10 @@ def _speed() -> Any:
     def tag(value: object) -> str:
         return "<range>" if isinstance(value, dict) else "<value>"
 
-    one, several = Annotated[quantity(SPEED), Tag("<value>")], Annotated[_speed_range(), Tag("<range>")]
+    schema = _quantity_schema(SPEED)
+    listed = {"description": "These speeds.", "type": "array", "minItems": 1, "items": {"anyOf": schema["anyOf"]}}
+    some = _leaf(as_speeds, {**schema, "anyOf": [*schema["anyOf"], listed]})
+    one, several = Annotated[some, Tag("<value>")], Annotated[_speed_range(), Tag("<range>")]
     return Annotated[one | several, Discriminator(tag)]
 
 
@@ -194,7 +199,9 @@ def problem_model(
             "car_body": (_car_body_model(complete="car_body" in complete), None),
             "speed": (_speed(), ...),
             "curve": (_curve_model(), None),
+            "conditions": (_leaf(as_conditions, {"description": "Conditions under which everything must hold."}), None),
             "cases": (_leaf(as_cases, {"description": "Faults that must be survived, by name."}), None),
+            "requirements": (_leaf(as_requirements, {"description": "What must be reached."}), None),
             "design": (_design_model(kind), None),
         },
     )
@@ -212,6 +219,8 @@ def build(model: BaseModel) -> Problem:
         speed=SpeedRange(**speed) if isinstance(speed, dict) else speed,
         curve=Curve(**data["curve"]) if "curve" in data else None,
         cases=data.get("cases", ()),
+        conditions=data.get("conditions", Conditions()),
+        requirements=data.get("requirements", ()),
         design=_design(data.get("design", {})),
     )
 

@@ -9,11 +9,14 @@ from typing import Any, Literal, Self, get_args
 
 from .arguments import named
 from .cases import Case, as_cases
+from .condition import Conditions, as_conditions
 from .consistency import misfits, present, why_absent
 from .diagnostics import Mistakes, ProblemError
 from .parameters import CAR_BODY, VERTICAL, Bogie, CarBody, bogie_keys, given_of
 from .quantities import Written, exact
-from .running import CURVE, SPEED, Curve, SpeedRange
+from .requirements import Requirement, as_requirements
+from .requirements import written as written_requirements
+from .running import CURVE, SPEED, Curve, SpeedRange, as_speeds
 from .table import RIGID, as_choice, as_text, field_name, key_of
 from .variables import Design, default_variables
 
@@ -30,8 +33,9 @@ class Problem:
     ----------
     bogie : Bogie
         The bogie.
-    speed : float or SpeedRange
-        Running speed [m/s], or a range of them; a text with a unit is converted.
+    speed : float, sequence of float or SpeedRange
+        Running speed [m/s], several of them, or a range, every speed in which may come; a text with a unit is
+        converted.
     equations : {"reciprocal", "as-printed"}
         Whether the motors' yaw reaction acts on the frame, or is left out as in the paper's equations.
     curve : Curve, optional
@@ -45,16 +49,24 @@ class Problem:
     cases : tuple of Case
         Faults that must be survived; they may be given as a problem file has them, ``{"one yaw damper lost": {"C_s":
         "50 %", "K_ds": "50 %"}}``: a percentage is a share of the value as designed.
+    conditions : Conditions
+        Under which everything must hold, beside the speeds; they may be given as a problem file has them,
+        ``{"lambda": [0.05, 0.4], "creep_factor": {"min": 0.5, "max": 1}}``.
+    requirements : tuple of Requirement
+        What must be reached under all conditions; they may be given as a problem file has them,
+        ``{"damping_ratio": "5 %", "critical_speed": "330 km/h"}``.
     """
 
     bogie: Bogie
-    speed: float | SpeedRange
+    speed: float | tuple[float, ...] | SpeedRange
     equations: Equations = "reciprocal"
     car_body: CarBody | None = None
     curve: Curve | None = None
     design: Design = field(default_factory=Design)
     title: str = ""
     cases: tuple[Case, ...] = ()
+    conditions: Conditions = field(default_factory=Conditions)
+    requirements: tuple[Requirement, ...] = ()
 
     def __post_init__(self) -> None:
         mistakes = Mistakes()
@@ -67,9 +79,13 @@ class Problem:
                 _instance(getattr(self, name), kind)
         if not isinstance(self.speed, SpeedRange):
             with mistakes.under("speed"):
-                object.__setattr__(self, "speed", SPEED.accept(self.speed))
+                object.__setattr__(self, "speed", as_speeds(self.speed, SPEED.accept))
         with mistakes.under("cases"):
             object.__setattr__(self, "cases", as_cases(self.cases))
+        with mistakes.under("conditions"):
+            object.__setattr__(self, "conditions", as_conditions(self.conditions))
+        with mistakes.under("requirements"):
+            object.__setattr__(self, "requirements", as_requirements(self.requirements))
         mistakes.report()
         if not self.design.variables:
             design = replace(self.design, variables=default_variables(self.bogie.kind))
@@ -87,6 +103,8 @@ class Problem:
                 curve=self.curve is not None,
                 variables=self.design.variables,
                 cases=self.cases,
+                conditions=self.conditions,
+                requirements=self.requirements,
             )
         )
         if found:
@@ -113,7 +131,17 @@ class Problem:
         bogie = replace(self.bogie, **vertical)
         keys = present(bogie.parameters())
         variables = {key: variable for key, variable in self.design.variables.items() if key in keys}
-        return replace(self, car_body=None, bogie=bogie, cases=(), design=replace(self.design, variables=variables))
+        design = replace(self.design, variables=variables)
+        requirements = tuple(each for each in self.requirements if not each.of_cases)
+        return replace(
+            self,
+            car_body=None,
+            bogie=bogie,
+            cases=(),
+            conditions=self.conditions.of(keys),
+            requirements=requirements,
+            design=design,
+        )
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -129,8 +157,10 @@ class Problem:
 
     @property
     def speeds(self) -> tuple[float, ...]:
-        """The running speeds [m/s] in rising order; one, if no range is given."""
-        return self.speed.values if isinstance(self.speed, SpeedRange) else (self.speed,)
+        """The running speeds [m/s] in rising order: one, several, or those at which a range is looked at first."""
+        if isinstance(self.speed, SpeedRange):
+            return self.speed.values
+        return self.speed if isinstance(self.speed, tuple) else (self.speed,)
 
     def replace(self, **changes: Any) -> Self:
         """Return a problem with other values.
@@ -194,6 +224,8 @@ class Problem:
         if self.car_body is not None:
             plain["car_body"] = _given(self.car_body)
         plain["cases"] = {case.name: {change.key: change.written for change in case.changes} for case in self.cases}
+        plain["conditions"] = self.conditions.written
+        plain["requirements"] = written_requirements(self.requirements)
         return plain
 
 
@@ -218,4 +250,6 @@ def _plain(value: Any) -> Any:
         return {f.name: _plain(getattr(value, f.name)) for f in fields(value)}
     if isinstance(value, Mapping):
         return {key: _plain(entry) for key, entry in value.items()}
+    if isinstance(value, tuple):
+        return [_plain(entry) for entry in value]
     return float(value) if isinstance(value, float) else value

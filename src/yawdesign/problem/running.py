@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 from .arguments import named
-from .diagnostics import Mistakes
+from .diagnostics import Mistakes, ProblemError
 from .quantities import Written, exact
-from .table import Parameter, as_choice, as_count, check_ends, check_fields, documented, parameter, table
+from .table import (
+    Parameter,
+    as_choice,
+    as_count,
+    as_several,
+    check_ends,
+    check_fields,
+    documented,
+    parameter,
+    shown,
+    table,
+)
 
 Load = Literal["axle", "wheel"]
 LOADS: tuple[str, ...] = get_args(Load)
@@ -79,10 +91,32 @@ class Curve:
 CURVE = table(Curve)
 
 
+MOST_SPEEDS = 1000
+LOWEST_SEARCHED, HIGHEST_SEARCHED = 10 / 3.6, 600 / 3.6  # [m/s], for critical speeds
+
+
+def as_speeds(value: Any, check: Callable[[object], float] = SPEED.check) -> float | tuple[float, ...]:
+    """Return a speed, or several in rising order [m/s]; a list of one is that one."""
+    if isinstance(value, str) or (not isinstance(value, (list, tuple)) and not hasattr(value, "__len__")):
+        return check(value)
+    entries = as_several(value)
+    if not 0 < len(entries) <= MOST_SPEEDS:
+        raise ProblemError(f"{len(entries)} speeds: give one to {MOST_SPEEDS}, or a range {{min: ..., max: ...}}")
+    mistakes, found = Mistakes(), list[float]()
+    for k, entry in enumerate(entries):
+        with mistakes.under(f"{k}"):
+            speed = check(entry)
+            if speed in found:
+                raise ProblemError(f"{shown(entry)} stands twice")
+            found.append(speed)
+    mistakes.report()
+    return found[0] if len(found) == 1 else tuple(sorted(found))
+
+
 @named
 @dataclass(frozen=True, kw_only=True)
 class SpeedRange:
-    """A range of running speeds, checked at equally spaced ones.
+    """A range of running speeds, every one of which may come; at equally spaced ones it is looked at first.
 
     Parameters
     ----------

@@ -9,7 +9,7 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.problem import PARAMETERS, Parameter, ProblemError, format_quantity
-from yawdesign.problem.conditions import Condition
+from yawdesign.problem.condition import CREEP_FACTOR, Condition
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_count, check_ends
@@ -38,15 +38,7 @@ DERIVED = {
         source="0.3",
         motor=True,
     ),
-    "creep_factor": Parameter(
-        key="creep_factor",
-        symbol=r"k_\mathrm{creep}",
-        unit="-",
-        meaning="factor of both creep coefficients",
-        hard=(1e-6, 1e6),
-        usual=(0.3, 1.0),
-        source="1",
-    ),
+    "creep_factor": CREEP_FACTOR,
 }
 # Everything that can be an axis.
 ROWS: Mapping[str, Parameter] = {**PARAMETERS, "v": replace(SPEED, key="v"), **DERIVED}

@@ -9,7 +9,8 @@ from typing import Any, Self
 import numpy as np
 
 from yawdesign.problem import PARAMETERS, Curve, Problem, ProblemError
-from yawdesign.problem.conditions import CREEP, Condition, conditions, distinct
+from yawdesign.problem.condition import CREEP, Condition
+from yawdesign.problem.conditions import conditions, distinct
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR
 from yawdesign.problem.running import SpeedRange

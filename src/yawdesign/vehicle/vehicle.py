@@ -7,7 +7,8 @@ from typing import Any, Self
 
 from yawdesign.problem import Problem
 from yawdesign.problem.cases import Case
-from yawdesign.problem.conditions import Condition, conditions
+from yawdesign.problem.condition import Condition
+from yawdesign.problem.conditions import conditions
 from yawdesign.problem.parameters import CAR_BODY, bogie_keys, parameter_keys
 from yawdesign.problem.table import key_of
 from yawdesign.vehicle.catalogue import CATALOGUE, OVERTURNING, Parameters, elements
@@ -89,6 +90,11 @@ class Model:
     def coordinates(self) -> Mapping[str, str]:
         """SI units of the coordinates at each end, by name, in the order of the states."""
         return _coordinates(self)
+
+    def with_fault(self, case: Case) -> "Model":
+        """Return the model of its vehicles with a fault, maybe of one of their bogies."""
+        own = [name for name in case.names if name not in self.parameters]
+        return replace(self, parameters=(*self.parameters, *own)) if own else self
 
     def movable(self, variables: Iterable[str]) -> tuple[str, ...]:
         """Return the names of the motions that some design variable moves; what a yaw damper reaches is among them."""
@@ -189,9 +195,7 @@ class Vehicle:
 
     def with_fault(self, case: Case) -> "Vehicle":
         """Return the vehicle with a fault, maybe of one of its bogies, which then have numbers of their own."""
-        changed = case.applied(self.p)
-        own = [name for name in changed if name not in self.p and name not in self.model.parameters]
-        return replace(self.model, parameters=(*self.model.parameters, *own)).at(changed)
+        return self.model.with_fault(case).at(case.applied(self.p))
 
     @property
     def bogie(self) -> "Vehicle":

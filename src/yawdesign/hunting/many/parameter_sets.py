@@ -7,7 +7,8 @@ from typing import Any, Self
 
 import numpy as np
 
-from yawdesign.problem.conditions import Condition
+from yawdesign.problem.cases import Case
+from yawdesign.problem.condition import Condition
 from yawdesign.vehicle.vehicle import Model, Vehicle
 
 
@@ -55,6 +56,10 @@ class ParameterSets:
     def under(self, condition: Condition) -> "ParameterSets":
         """Return the same sets under a condition."""
         return ParameterSets(self.model, condition.applied(self.values), self.size)
+
+    def with_fault(self, case: Case) -> "ParameterSets":
+        """Return the same sets with a fault."""
+        return ParameterSets(self.model.with_fault(case), case.applied(self.values), self.size)
 
     def whole(self, name: str) -> Any:
         """Return the values of a parameter in all sets."""

@@ -1,0 +1,178 @@
+"""The worst of all conditions for one design: of lists every combination, of ranges a search inside them.
+
+First on a grid, with verdicts: a level falls until few conditions leave less. Then from the lowest few that are apart,
+each to the lowest margin near it by the gradient: where a margin is lowest it is that of one mode, and smooth. This is
+a search and no proof: a narrow dip between the points of the grid may be missed.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from yawdesign.hunting.arrays import Float, Index
+from yawdesign.hunting.many.measure import Measure
+from yawdesign.hunting.many.parameter_sets import ParameterSets
+from yawdesign.hunting.many.worst_margin import under_conditions
+from yawdesign.problem.condition import Condition
+from yawdesign.problem.conditions import ConditionSet
+from yawdesign.vehicle.vehicle import Model
+
+PER_RANGE = {1: 129, 2: 33, 3: 17}  # points of the grid along each range; of more ranges there is a Sobol sequence
+SEQUENCE = 8192
+MOST_POINTS = 300_000  # of the grid, all lists together
+LEAST_POINTS = 16  # for each combination of lists
+SAMPLE = 64  # margins that are computed to lower the level
+FEW = 192  # conditions of which the margins are all computed
+MOST_LOOKS = 12
+SLACK = 0.1  # of the lowest margin: conditions with so much more are starts too
+STARTS = 5  # conditions from which the lowest margin nearby is looked for
+STEP = 1e-5  # of the differences along a range, relative to it
+
+
+@dataclass(frozen=True)
+class Worst:
+    """A condition with a low margin.
+
+    Parameters
+    ----------
+    condition : Condition
+        Which one.
+    margin : float
+        There: [1/s] or [-].
+    """
+
+    condition: Condition
+    margin: float
+
+
+def worst_conditions(model: Model, p: dict[str, Any], conditions: ConditionSet, measure: Measure) -> tuple[Worst, ...]:
+    """Return conditions under which a vehicle's margin is low, the lowest first.
+
+    Parameters
+    ----------
+    model, p : Model, dict
+        The vehicle's equations and numbers as designed, ``C_s`` [N s/m] among them.
+    conditions : ConditionSet
+        In which the worst is looked for.
+    measure : Measure
+        Which margin.
+    """
+    names, ends = _names(conditions)
+    place, x = _grid(conditions)
+    sets = _sets(model, p, conditions, place, x)
+    margin = _low_margins(measure, sets)
+    found = []
+    for k in _starts(conditions, place, x, margin):
+        there, least = _descended(model, p, conditions.lists[place[k]], names, ends, x[:, k], measure)
+        values = dict(zip(names, _between(ends, there).tolist(), strict=True))
+        found.append(Worst(conditions.at(int(place[k]), values), least))
+    return tuple(sorted(found, key=lambda worst: worst.margin))
+
+
+def _names(conditions: ConditionSet) -> tuple[list[str], Float]:
+    ends = np.array([ends for _, ends in conditions.ranges], dtype=float).reshape(-1, 2)
+    return [name for name, _ in conditions.ranges], ends
+
+
+def _between(ends: Float, x: Float) -> Float:
+    """Return values at points of the unit cube, shape (ranges, ...)."""
+    low, high = (ends[:, k].reshape(-1, *[1] * (x.ndim - 1)) for k in (0, 1))
+    return np.asarray(np.clip(low + (high - low) * x, low, high))
+
+
+def _grid(conditions: ConditionSet) -> tuple[Index, Float]:
+    """Return points in all combinations of lists: which combination, and where in the cube of the ranges."""
+    d, lists = len(conditions.ranges), len(conditions.lists)
+    x = _points(d, max(MOST_POINTS // lists, LEAST_POINTS))
+    return np.repeat(np.arange(lists), x.shape[1]), np.tile(x, lists)
+
+
+def _points(d: int, most: int) -> Float:
+    if d == 0:
+        return np.zeros((0, 1))
+    if d in PER_RANGE:
+        n = max(2, min(PER_RANGE[d], int(most ** (1 / d))))
+        return np.array(list(product(np.linspace(0, 1, n), repeat=d))).T
+    from scipy.stats import qmc  # takes longer to import than a search in up to three ranges
+
+    corners = np.array(list(product((0.0, 1.0), repeat=d))).T
+    inside = qmc.Sobol(d, rng=0).random(1 << (min(SEQUENCE, most) - 1).bit_length()).T
+    return np.concatenate([corners, inside], axis=1)
+
+
+def _sets(model: Model, p: dict[str, Any], conditions: ConditionSet, place: Index, x: Float) -> ParameterSets:
+    """Return the vehicle under the conditions at points of the cube; the places rise."""
+    names, ends = _names(conditions)
+    values = _between(ends, x)
+    ways = []
+    for k, condition in enumerate(conditions.lists):
+        own = place == k
+        ways.append((condition.with_values(dict(zip(names, values[:, own], strict=True))), int(own.sum())))
+    return under_conditions(model, p, ways)
+
+
+def _low_margins(measure: Measure, sets: ParameterSets) -> Float:
+    """Return the margins of those vehicles that have the lowest ones, infinity for others."""
+    rng = np.random.default_rng(0)
+    margin, left = np.full(sets.size, np.inf), np.arange(sets.size)
+    for _ in range(MOST_LOOKS):
+        if len(left) <= FEW:
+            break
+        some = rng.choice(left, SAMPLE, replace=False)
+        margin[some] = measure.of(sets.part(some))
+        least = margin.min()
+        yes, sure = measure.exceeds(sets.part(left), least + SLACK * abs(least))
+        left = left[~(yes & sure)]
+    if len(left) > FEW:  # many are equally low, or unstable ones have no verdict
+        left = rng.choice(left, min(len(left), 10 * FEW), replace=False)
+    margin[left] = measure.of(sets.part(left))
+    return margin
+
+
+def _starts(conditions: ConditionSet, place: Index, x: Float, margin: Float) -> Iterator[int]:
+    """Yield the points with the lowest margins, none of which is close to a lower one."""
+    chosen: list[int] = []
+    per_range = PER_RANGE.get(len(conditions.ranges), 8)
+    for k in np.argsort(margin, kind="stable")[: 20 * STARTS]:
+        close = (place[k] == place[j] and np.all(np.abs(x[:, k] - x[:, j]) < 2.5 / per_range) for j in chosen)
+        if not np.isfinite(margin[k]) or len(chosen) == STARTS:
+            return
+        if not any(close):
+            chosen.append(int(k))
+            yield int(k)
+
+
+def _descended(
+    model: Model,
+    p: dict[str, Any],
+    condition: Condition,
+    names: Sequence[str],
+    ends: Float,
+    start: Float,
+    measure: Measure,
+) -> tuple[Float, float]:
+    """Return the point of the cube with the lowest margin near a start, and that margin."""
+    d, best = len(start), (start, np.inf)
+
+    def margins(x: Float) -> Float:
+        values = dict(zip(names, _between(ends, x), strict=True))
+        return measure.of(under_conditions(model, p, [(condition.with_values(values), x.shape[1])]))
+
+    def value_and_slope(x: Float) -> tuple[float, Float]:
+        nonlocal best
+        inside = np.clip(x, STEP, 1 - STEP)
+        steps = np.concatenate([np.eye(d), -np.eye(d)], axis=1) * STEP
+        found = margins(np.concatenate([x[:, None], inside[:, None] + steps], axis=1))
+        if found[0] < best[1]:
+            best = x.copy(), float(found[0])
+        return float(found[0]), (found[1 : d + 1] - found[d + 1 :]) / (2 * STEP)
+
+    if d == 0:
+        return start, float(margins(start[:, None])[0])
+    from scipy.optimize import minimize  # not needed where nothing is a range
+
+    minimize(value_and_slope, start, jac=True, method="L-BFGS-B", bounds=[(0, 1)] * d, options={"maxiter": 40})
+    return best
