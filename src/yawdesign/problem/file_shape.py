@@ -23,7 +23,7 @@ from pydantic import (
 from pydantic import create_model as make
 
 from .cases import as_cases
-from .condition import Conditions, as_conditions
+from .condition import Conditions
 from .creep import CREEP, MADE, creep_coefficients
 from .diagnostics import Mistakes, ProblemError
 from .parameters import BOGIE, CAR_BODY, KINDS, PARAMETERS, Bogie, CarBody, bogie_keys
@@ -34,6 +34,7 @@ from .running import CURVE, LOADS, SPEED, STEPS, Curve, SpeedRange, as_speeds
 from .table import Parameter, as_choice, as_count, as_switch, as_text, check_end, field_name
 from .units import kind_of
 from .variables import OBJECTIVES, Design, Variable
+from .written_conditions import as_conditions
 
 PRESETS: Mapping[str, tuple[str, ...]] = {"bogie": ("table1",), "car_body": ("huo-dai",)}
 SWITCHES: Mapping[str, Mapping[str, tuple[bool, str]]] = {
