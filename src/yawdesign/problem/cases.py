@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -178,18 +178,19 @@ def _is_percentage(text: str) -> bool:
         return False  # no quantity at all: the row of the table says so
 
 
-def outside(case: Case, designed: Mapping[str, float | None]) -> Iterator[Diagnostic]:
-    """Yield the shares in a fault that lead out of the range of a parameter; values as designed by key, where known."""
+def outside(case: Case, designed: Mapping[str, Collection[float]]) -> Iterator[Diagnostic]:
+    """Yield the shares in a fault that lead out of the range of a parameter; the values that it has by key."""
     for change in case.changes:
-        value, row = designed.get(change.parameter), PARAMETERS[change.parameter].finite
-        if not change.share or value is None:
-            continue
-        try:
-            row.check(change.result(value))
-        except ProblemError:
-            reached = format_quantity(change.result(value), row.unit)
-            text = f"{change.written} of the value as designed is {reached}"
-            hint = "; a damper is removed by 0 % of its damping" if PARAMETERS[change.parameter].rigid else ""
-            yield Diagnostic(
-                key=f"{case.name}.{change.key}", message=f"{text}, outside {row.range_text(row.hard, row.unit)}{hint}"
-            )
+        row = PARAMETERS[change.parameter].finite
+        for value in designed.get(change.parameter, ()) if change.share else ():
+            try:
+                row.check(change.result(value))
+            except ProblemError:
+                reached = format_quantity(change.result(value), row.unit)
+                text = f"{change.written} of the value as designed is {reached}"
+                hint = "; a damper is removed by 0 % of its damping" if PARAMETERS[change.parameter].rigid else ""
+                yield Diagnostic(
+                    key=f"{case.name}.{change.key}",
+                    message=f"{text}, outside {row.range_text(row.hard, row.unit)}{hint}",
+                )
+                break

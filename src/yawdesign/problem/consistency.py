@@ -63,8 +63,11 @@ def misfits(
             yield Diagnostic(key=f"design.variables.{key}", message=why_absent(key, kind, given), at_key=True)
     changed = {*variables, *conditions.every_key, "C_s"}
     kept = {key: value for key, value in given.items() if key in present(given) and key not in changed}
+    taken = {key: conditions.taken(key, given.get(key)) for key in present(given)}
     for case in cases:
         yield from _of_case(case, kind, given, kept, car_body is not None)
+        for found in outside(case, taken):
+            yield Diagnostic(key=f"cases.{found.key}", message=found.message)
     yield from _of_conditions(conditions, kind, given, variables)
     yield from _reached(conditions, given)
     yield from _size(conditions, speeds)
@@ -150,8 +153,6 @@ def _of_case(case: Case, kind: str, given: Values, kept: Values, has_car_body: b
             text = why_absent(change.parameter, kind, given)
         if text:
             yield Diagnostic(key=f"cases.{case.name}.{change.key}", message=text, at_key=True)
-    for found in outside(case, {key: value for key, value in given.items() if key in present(given)}):
-        yield Diagnostic(key=f"cases.{found.key}", message=found.message)
     if all(change.is_none(kept.get(change.parameter)) for change in case.changes):
         text = "changes nothing: its values are those as designed"
         yield Diagnostic(key=f"cases.{case.name}", message=text, at_key=True)

@@ -82,19 +82,19 @@ def _not_among(problem: Problem) -> Iterator[tuple[Path, str]]:
 
 
 def _weight(problem: Problem, data: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
-    """Doubt an axle load that is not a quarter of the weight."""
+    """Doubt axle loads that are not a quarter of the weight."""
     if problem.car_body is None:
         return
-    kind, W = problem.bogie.kind, problem.bogie.W
-    fitting = fitting_axle_load(problem.parameters(), kind)
-    if abs(W - fitting) <= MOST_APART * fitting:
-        return
+    designed = problem.parameters()
+    vehicles: dict[Path, dict[str, float]] = {("bogie", "W") if "W" in data["bogie"] else ("car_body",): designed}
+    vehicles |= {("conditions", "load", x.name): designed | dict(x.changes) for x in problem.conditions.loads}
+    kind = problem.bogie.kind
     parts = "car body, two bogie frames, four wheelsets" + (" and four motors" if kind == "power" else "")
-    text = (
-        f"{_kN(W)} on each of four axles is {_kN(4 * W)}, but {parts} weigh {_kN(4 * fitting)}: "
-        f"W = {_kN(fitting)} would carry them"
-    )
-    yield ("bogie", "W") if "W" in data["bogie"] else ("car_body",), text
+    for place, p in vehicles.items():
+        W, fitting = p["W"], fitting_axle_load(p, kind)
+        if abs(W - fitting) > MOST_APART * fitting:
+            text = f"{_kN(W)} on each of four axles is {_kN(4 * W)}, but {parts} weigh {_kN(4 * fitting)}"
+            yield place, f"{text}: W = {_kN(fitting)} would carry them"
 
 
 def _kN(force: float) -> str:

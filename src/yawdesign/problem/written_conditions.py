@@ -38,20 +38,21 @@ def read_conditions(value: object) -> tuple[Conditions, list[Diagnostic]]:
     mistakes = Mistakes()
     values: dict[str, tuple[float, ...]] = {}
     ranges: dict[str, tuple[float, float]] = {}
-    tolerance: tuple[tuple[str, float], ...] = ()
-    loads: tuple[Load, ...] = ()
+    tolerance: dict[str, float] = {}
+    loads: list[Load] = []
     with mistakes.under(""):
         for name, written in _items(value, _EXAMPLE):
             with mistakes.under(name):
                 if name == "tolerance":
-                    tolerance = _tolerance(written)
+                    _add_tolerances(tolerance, written)
                 elif name == "load":
-                    loads = _loads(written)
+                    _add_loads(loads, written)
                 elif isinstance(written, Mapping):
                     _put(ranges, row := _row(name), _range(written, row))
                 else:
                     _put(values, row := _row(name), _values(written, row))
-    return Conditions(tuple(values.items()), tuple(ranges.items()), tolerance, loads), mistakes.found
+    found = Conditions(tuple(values.items()), tuple(ranges.items()), tuple(tolerance.items()), tuple(loads))
+    return found, mistakes.found
 
 
 def _items(value: object, example: str) -> Iterator[tuple[str, object]]:
@@ -110,8 +111,9 @@ def _range(written: Mapping[object, object], row: Parameter) -> tuple[float, flo
     return check_ends(written["min"], written["max"], row)
 
 
-def _tolerance(written: object) -> tuple[tuple[str, float], ...]:
-    mistakes, found = Mistakes(), dict[str, float]()
+def _add_tolerances(found: dict[str, float], written: object) -> None:
+    """Add the tolerances that are right, and report the mistakes in the others."""
+    mistakes = Mistakes()
     with mistakes.under(""):
         for name, share in _items(written, "K_m: 10 %"):
             with mistakes.under(name):
@@ -119,7 +121,6 @@ def _tolerance(written: object) -> tuple[tuple[str, float], ...]:
                     raise wrong_key(f"is not a parameter{suggestion(name, PARAMETERS)}")
                 _put(found, PARAMETERS[key_of(name)], _share(share))
     mistakes.report()
-    return tuple(found.items())
 
 
 def _share(written: object) -> float:
@@ -129,14 +130,14 @@ def _share(written: object) -> float:
     return share
 
 
-def _loads(written: object) -> tuple[Load, ...]:
-    mistakes, found = Mistakes(), list[Load]()
+def _add_loads(found: list[Load], written: object) -> None:
+    """Add the loads that are right, and report the mistakes in the others."""
+    mistakes = Mistakes()
     with mistakes.under(""):
         for name, changes in _items(written, "laden: {W: 200 kN}"):
             with mistakes.under(name):
                 found.append(_load(name, changes, found))
     mistakes.report()
-    return tuple(found)
 
 
 def _load(written: str, given: object, others: list[Load]) -> Load:
