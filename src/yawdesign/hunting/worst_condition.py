@@ -7,6 +7,7 @@ a search and no proof: a narrow dip between the points of the grid may be missed
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
 from typing import Any
 
@@ -93,6 +94,7 @@ def _grid(conditions: ConditionSet) -> tuple[Index, Float]:
     return np.repeat(np.arange(lists), x.shape[1]), np.tile(x, lists)
 
 
+@lru_cache
 def _points(d: int, most: int) -> Float:
     if d == 0:
         return np.zeros((0, 1))
