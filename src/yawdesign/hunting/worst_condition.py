@@ -76,6 +76,14 @@ def worst_conditions(model: Model, p: dict[str, Any], conditions: ConditionSet, 
     return tuple(sorted(worst, key=lambda one: one.margin))
 
 
+def exceeds_everywhere(
+    model: Model, p: dict[str, Any], conditions: ConditionSet, measure: Measure, level: float
+) -> bool:
+    """Return whether a margin surely exceeds a level at every point of the grid; the other arguments as above."""
+    yes, sure = measure.exceeds(_sets(model, p, conditions, *_grid(conditions)), level)
+    return bool(np.all(yes & sure))
+
+
 def _names(conditions: ConditionSet) -> tuple[list[str], Float]:
     ends = np.array([ends for _, ends in conditions.ranges], dtype=float).reshape(-1, 2)
     return [name for name, _ in conditions.ranges], ends
