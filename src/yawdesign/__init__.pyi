@@ -2,8 +2,8 @@
 
 from yawdesign.damper.forward import ForwardDesign as ForwardDesign
 from yawdesign.damper.forward import design as design
-from yawdesign.damper.optimise import Optimum as Optimum
 from yawdesign.damper.optimise import optimise as optimise
+from yawdesign.damper.optimum import Optimum as Optimum
 from yawdesign.exports.fmu.archive import Fmu as Fmu
 from yawdesign.exports.fmu.archive import write_fmu as write_fmu
 from yawdesign.exports.functions import functions as functions
