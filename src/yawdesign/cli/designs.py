@@ -33,7 +33,8 @@ def _answer(file: str, as_json: bool, home: str, function: str) -> None:
         problem = read_problem(file)
         result = getattr(import_module(home), function)(problem)
         show(result, as_json)
-    raise ended(checked=result.checked, feasible=result.stable)
+    met = all(requirement.met for requirement in result.requirements)
+    raise ended(checked=result.checked, feasible=result.stable and met)
 
 
 def optimise(

@@ -110,7 +110,9 @@ def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
     nexts = next_margins(space, checked.vehicles) if capping else None
     requirements = requirement_verdicts(space.problem, values)
     bounds = {name: _bound(space, name, values[name]) for name in space.names}
-    resisted = space.curve and largest_resistance(values, values["C_s"], space.loads, space.curve)
+    resisted = None
+    if space.curve is not None:
+        resisted = largest_resistance(values, values["C_s"], space.loads, space.curve)
     status, message = _status(checked, requirements, nexts is None or nexts.agree)
     return _optimum_of(
         space,
