@@ -1,4 +1,4 @@
-"""The design of largest margin that the curve allows, checked by a second route, and what to change if there is none."""
+"""The design of largest margin that the curve allows, checked by a second route, or what to change."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -110,9 +110,8 @@ def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
     nexts = next_margins(space, checked.vehicles) if capping else None
     requirements = requirement_verdicts(space.problem, values)
     bounds = {name: _bound(space, name, values[name]) for name in space.names}
-    resisted = None
-    if space.curve is not None:
-        resisted = largest_resistance(values, values["C_s"], space.loads, space.curve)
+    curve = space.curve
+    resisted = None if curve is None else largest_resistance(values, values["C_s"], space.loads, curve)
     status, message = _status(checked, requirements, nexts is None or nexts.agree)
     return _optimum_of(
         space,

@@ -54,7 +54,7 @@ def facts(title: str, rows: Iterable[tuple[str, str]]) -> Table:
     return table
 
 
-def _modes(modes: Iterable["Mode"]) -> Table:
+def modes_table(modes: Iterable["Mode"]) -> Table:
     table = titled("Modes, least damped first", "frequency [Hz]", "damping ratio [%]", "decay rate [1/s]")
     for mode in modes:
         frequency = f"{mode.frequency:.3f}" if mode.frequency else "no oscillation"
@@ -82,7 +82,7 @@ def stability_tables(result: "Stability") -> RenderableType:
         ],
     )
     first = Text("The bogie is " if result.scope else "The vehicle is ").append_text(verdict).append(".")
-    return Group(first, *scope_lines(result.scope), summary, *case_tables(result.cases), _modes(result.modes))
+    return Group(first, *scope_lines(result.scope), summary, *case_tables(result.cases), modes_table(result.modes))
 
 
 def scope_lines(scope: str) -> list[Text]:

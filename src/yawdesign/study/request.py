@@ -8,7 +8,6 @@ from typing import Any, Self
 
 import numpy as np
 
-from yawdesign.hunting.scope import conditions_told
 from yawdesign.problem import PARAMETERS, Curve, Problem, ProblemError
 from yawdesign.problem.condition import CREEP, TOLERANCE, Condition
 from yawdesign.problem.conditions import ConditionSet, condition_set
@@ -263,13 +262,19 @@ def _unanswerable(problem: Problem, quantity: str, names: list[str]) -> Mistakes
         for name in sorted(CURVE.keys() & set(names)):
             with mistakes.under(name):
                 raise ProblemError(f"is a number of the curve, on which {quantity} does not depend: ask for design")
-    with mistakes.under("conditions"):
+    with mistakes.under("conditions" if problem.conditions else "speed"):
         left = remaining(problem, quantity, names)
         if quantity in ALL_AT_ONE and not left.is_one:
-            raise ProblemError(
-                f"are {conditions_told(left)}, and each has its own {quantity} values: give one, or make it an axis"
-            )
+            own = f"and each condition has its own {quantity.replace('_', ' ')} values"
+            raise ProblemError(f"differ in {', '.join(_varied(left))}, {own}: give one, or axes of these")
     return mistakes
+
+
+def _varied(conditions: ConditionSet) -> list[str]:
+    """Return the names of what varies from condition to condition."""
+    told = [each.described for each in conditions.corners]
+    names = dict.fromkeys(name for each in told for name in each)
+    return ["v" if name == "speed" else name for name in names if len({each.get(name) for each in told}) > 1]
 
 
 def _check_derived(task: Task, axes: tuple[Axis, ...]) -> None:
