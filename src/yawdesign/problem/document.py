@@ -115,6 +115,9 @@ class Document:
         """Return the node at a path, or the innermost around it; the key's with `key` or where there is no value."""
         node, name = self.root, Node(self.root.start, self.root.start + 1)
         for part in path:
+            if isinstance(node, Sequence) and str(part).isdecimal() and int(part) < len(node.items):
+                node = name = node.items[int(part)]
+                continue
             if not isinstance(node, Mapping) or part not in node.values:
                 return name
             name = node.keys[str(part)]
