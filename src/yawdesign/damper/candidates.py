@@ -97,6 +97,11 @@ class Choice(Result):
         """The first that keeps all limits; None if there is none."""
         return next((each for each in self.candidates if each.status == OK), None)
 
+    @property
+    def doubtful(self) -> bool:
+        """Whether some damper could be neither accepted nor refused."""
+        return any(each.status == UNVERIFIED for each in self.candidates)
+
 
 def rank(candidate: Candidate) -> tuple[int, float]:
     """Return by what candidates are sorted, the best first."""

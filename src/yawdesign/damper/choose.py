@@ -14,14 +14,13 @@ LINEAR = (
     "blow_off and damping_after are shown and not computed with: above its blow-off force a damper gives less damping "
     "than this linear model has."
 )
-FAR = "not searched inside of ranges, and not verified"
 
 
 def choose(problem: Problem, *, executor: Any = None, progress: Progress = lambda text, part: None) -> Choice:
     """Return the dampers of a problem's catalogue, the best first, with the reason for each that is refused.
 
-    Each takes the place of the yaw damper, all other values are as written. The ten best are looked at closer: inside of
-    ranges the worst condition is searched for, and all verdicts are taken twice.
+    Each takes the place of the yaw damper, all other values are as written. The ten best are looked at closer: inside
+    of ranges the worst condition is searched for, and all verdicts are taken twice.
 
     Parameters
     ----------

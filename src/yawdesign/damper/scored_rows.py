@@ -31,6 +31,7 @@ from yawdesign.hunting.worst_condition import worst_conditions
 from yawdesign.problem import PARAMETERS, Problem, ProblemError, Variable, format_quantity
 from yawdesign.problem.cases import Case, Change
 from yawdesign.problem.condition import Condition
+from yawdesign.problem.condition_texts import change_text
 from yawdesign.problem.conditions import ConditionSet, condition_set
 from yawdesign.problem.damper_catalogue import CatalogueDamper
 from yawdesign.problem.table import RIGID
@@ -161,10 +162,10 @@ class ScoredRows:
         if self._over(candidate):
             return replace(candidate, status=EXCEEDS, reason=self._over(candidate))
         if not decay > 0:
-            return replace(candidate, status=UNSTABLE, reason=f"grows by {-decay:.3g} 1/s {told_of(at)}")
+            return replace(candidate, status=UNSTABLE, reason=f"grows by {-decay:.3g} 1/s {_told(at)}")
         if short:
             return replace(candidate, status=MISSES, reason=short)
-        return replace(candidate, status=OK, reason=f"worst {told_of(candidate.worst_condition)}")
+        return replace(candidate, status=OK, reason=f"worst {_told(candidate.worst_condition)}")
 
     def _over(self, candidate: Candidate) -> str:
         """Return in words that the curve's limit is exceeded; empty where it is kept."""
@@ -177,11 +178,15 @@ class ScoredRows:
         return f"T/(4 Q a) is {reached:.4g}, and the limit is {float(curve.limit):.4g}: {most}"
 
     def _resistance(self) -> Float | None:
+        """Return the rotational resistance under the load for which it is largest; None without a curve."""
         curve = self.space.curve
         if curve is None:
             return None
-        under = [load.applied(self.values) for load in self.space.loads]
-        return np.max([np.broadcast_to(rotational_resistance(p, p["C_s"], curve), self.sets.size) for p in under], 0)
+        resistance = np.zeros(self.sets.size)
+        for load in self.space.loads:
+            p = load.applied(self.values)
+            resistance = np.maximum(resistance, rotational_resistance(p, p["C_s"], curve))
+        return resistance
 
     def _requirements(self) -> list[list[dict[str, Any]]]:
         """Return for each requirement and each row what is wanted and reached; of faults the worst one's."""
@@ -223,8 +228,8 @@ class ScoredRows:
         ]
 
 
-def told_of(condition: Mapping[str, Any]) -> str:
-    return ", ".join(f"{k} {v}" for k, v in condition.items())
+def _told(condition: Mapping[str, Any]) -> str:
+    return "at " + ", ".join(change_text(name, value) for name, value in condition.items())
 
 
 def in_groups(problem: Problem, dampers: Sequence[CatalogueDamper]) -> list[ScoredRows]:
