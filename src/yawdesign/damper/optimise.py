@@ -6,16 +6,14 @@ from typing import Any
 
 import numpy as np
 
+from yawdesign.damper.best_design import best_design
 from yawdesign.damper.capping import GIVEN_AWAY, CappingMode, at_design, capping_modes, names_of, sensitivity
-from yawdesign.damper.curving import excess
+from yawdesign.damper.curving import excess, largest_resistance
 from yawdesign.damper.design_space import Space, fraction, scale
-from yawdesign.damper.forward import ForwardDesign, design, forward_design, others_stable, resistance
-from yawdesign.damper.local_nlp import LocalImprover
-from yawdesign.damper.nlp import Improver
-from yawdesign.damper.search import search
+from yawdesign.damper.forward import ForwardDesign, design, forward_design
 from yawdesign.damper.second_route import AGREE, hurwitz_positive, margin_by_routh
+from yawdesign.damper.stable_intervals import others_stable
 from yawdesign.damper.status import Status
-from yawdesign.damper.stencils import distinct, refine
 from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.many.measure import Measure
 from yawdesign.hunting.many.parameter_sets import ParameterSets
@@ -26,11 +24,6 @@ from yawdesign.problem.result import Result
 from yawdesign.problem.table import as_seed
 from yawdesign.vehicle.vehicle import Vehicle
 
-APART = 1e-3  # how far starts of the NLP must be from a better one
-MOST_REFINED = 8  # points after each turn of the NLP
-TURNS = ((6, 1e-3), (2, 1e-5))  # number of starts of the NLP, radius of the refinement after it
-MOST_SEARCHES = 9  # in five variables and more; what these miss, other seeds may find
-MOST_FACTORED = 30  # degree of polynomials; with that of a vehicle no start of the NLP of their factors converged
 ACTIVE = 1e-4  # a variable within this share of its range from a bound stands at the bound
 
 
@@ -197,14 +190,14 @@ def optimise(
         raise ProblemError("bogie.C_s is missing: give its value, or make it a design variable")
     if space.curve is not None and not space.feasible(space.values(space.gentlest)):
         return _nothing(space, space.curve)
-    x = _found(space, seed, options or {}, progress)
+    space, x = best_design(space, seed, options or {}, progress)
     capping = capping_modes(space, x) if space.model.has_car_body else ()
     if capping:
         # Numbers, and not x, go on: the curve's limit stays where it is.
         least, values = float(np.squeeze(space.margins_at(x[:, None]))), space.values(x)
         anchor = {name: float(values[name]) for name in space.names}
-        space = Space(problem, pairs=len(capping), floor=(1 - GIVEN_AWAY) * least, anchors_given=(anchor,))
-        x = _found(space, seed, options or {}, progress)
+        second = replace(space, pairs=len(capping), floor=(1 - GIVEN_AWAY) * least, anchors_given=(anchor,))
+        space, x = best_design(second, seed, options or {}, progress)
     return replace(_answer(space, x, capping), single_bogie=_single(space, seed, options))
 
 
@@ -224,43 +217,6 @@ def _single(space: Space, seed: int, options: Mapping[str, Any] | None) -> Singl
     return SingleOptimum(alone.optimum, alone.margin, moving, stable=all(result.stable for result in results))
 
 
-def _found(space: Space, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
-    """Return the best point of a design space."""
-    found = np.concatenate([search(space, seed + k, progress) for k in range(_searches(space))], axis=1)
-    return _best(space, found, seed, options, progress)
-
-
-def _searches(space: Space) -> int:
-    """Return how many independent searches are made: what one cannot sample densely, several must not miss."""
-    return min(max(1, 4 * len(space.names) - 11), MOST_SEARCHES)
-
-
-def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
-    """Return the best point after IPOPT and refinement in turn: each leaves the ridges on which the other stops."""
-    rng, margin, improver = np.random.default_rng(seed), space.margins_at(x), _improver(space, options)
-    order = distinct(x, margin, np.full(len(margin), APART))  # several searches find the same
-    x, margin = x[:, order], margin[order]
-    # Local optima multiply with the variables; models come from farther, and take longer.
-    more = _searches(space) if isinstance(improver, Improver) else 1
-    for turn, (starts, radius) in enumerate(TURNS):
-        progress("solving the NLP", turn / len(TURNS))
-        starts = min(starts * more, x.shape[1])
-        reached = [y[:, None] for k in range(starts) for y in improver.improve(x[:, k], float(margin[k]))]
-        x = np.concatenate([x, *reached], axis=1)
-        margin = space.margins_at(x)
-        order = np.argsort(-margin, kind="stable")[:MOST_REFINED]
-        x = refine(space, x[:, order], margin[order], rng, radius=radius, until=1e-11, rounds=30)
-        margin = space.margins_at(x)
-    return x[:, 0]
-
-
-def _improver(space: Space, options: Mapping[str, Any]) -> Improver | LocalImprover:
-    """Return the NLP of whole polynomials, or that of models where coefficients of so high a degree say too little."""
-    coupled, states = space.model.motions[0], space.model.states
-    large = len(states.states_of(coupled.coordinates)) > MOST_FACTORED
-    return (LocalImprover if space.pairs or large else Improver)(space, options)
-
-
 def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
     values = {name: float(np.squeeze(v)) for name, v in space.values(x).items()}
     vehicles = [space.model.at(condition.applied(values)) for condition in space.conditions]
@@ -272,12 +228,12 @@ def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
     agree = all(result.checked for result in results) and abs(second - margin) <= AGREE[space.objective]
     agree = agree and abs(nexts[0] - nexts[1]) <= AGREE[space.objective]
     status = (Status.OPTIMAL if stable else Status.UNSTABLE) if agree else Status.UNVERIFIED_OPTIMUM
-    helpless = status == Status.UNSTABLE and not others_stable(vehicles)
+    helpless = status == Status.UNSTABLE and not all(others_stable(vehicle) for vehicle in vehicles)
     bounds = {name: _bound(space, name, values[name]) for name in space.names}
-    resisted = resistance(vehicles, values["C_s"], space.curve)
+    resisted = space.curve and largest_resistance(values, values["C_s"], space.loads, space.curve)
     return _optimum(
         space,
-        forward_design(vehicles, space.curve),
+        forward_design(space.model, values, space.condition_set, space.curve),
         status,
         optimum={name: values.get(name) for name in _named(space)},
         margin=margin,
