@@ -168,7 +168,7 @@ class Space:
             return low, np.maximum(low, high)
         return low, high
 
-    def _bounds_with(self, name: str, known: Values) -> tuple[Any, Any]:  # noqa: ARG002
+    def _bounds_with(self, name: str, known: Values) -> tuple[Any, Any]:
         """Return the bounds of a variable where other values are known."""
         return self.bounds(name)
 

@@ -2,12 +2,14 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from yawdesign.damper.best_design import best_design
 from yawdesign.damper.capping import GIVEN_AWAY, CappingMode, at_design, capping_modes, names_of, sensitivity
+from yawdesign.damper.catalogue_optimum import best_of_catalogue
 from yawdesign.damper.curving import excess, largest_resistance
 from yawdesign.damper.design_space import Space, fraction, scale
 from yawdesign.damper.forward import ForwardDesign, design, forward_design
@@ -128,6 +130,8 @@ class Optimum(Result):
         The forward design with the optimum's bogie: critical values, stable intervals, golden section.
     single_bogie : SingleOptimum or None
         For a vehicle with a car body whose variables a bogie has: what one bogie alone would have answered.
+    damper : str or None
+        With a catalogue, the damper of it.
     """
 
     optimum: Mapping[str, float | None]
@@ -157,6 +161,7 @@ class Optimum(Result):
     requirements: tuple[Any, ...] = ()
     cases: tuple[CaseVerdict, ...] = ()
     single_bogie: SingleOptimum | None = None
+    damper: str | None = None
 
 
 def optimise(
@@ -185,6 +190,9 @@ def optimise(
         If C_s is neither given nor a design variable.
     """
     seed = as_seed(seed) or 0
+    if problem.design.catalogue:
+        damper, found = best_of_catalogue(problem, partial(optimise, seed=seed, options=options), progress=progress)
+        return replace(found, damper=damper.name)
     space = Space(problem)
     if "C_s" not in space.names and problem.bogie.C_s is None:
         raise ProblemError("bogie.C_s is missing: give its value, or make it a design variable")
