@@ -17,10 +17,9 @@ def choose(
     with mistakes_told():
         problem = read_problem(file)
         from yawdesign.damper.choose import choose as ranked
-        from yawdesign.study.executors import as_executor, workers
+        from yawdesign.study.executors import workers
 
-        with workers(jobs, dask) as found, progress_shown() as progress:
-            executor = None if found is None else as_executor(found)
+        with workers(jobs, dask) as executor, progress_shown() as progress:
             result = ranked(problem, executor=executor, progress=progress)
         show(result, as_json)
     raise ended(checked=result.best is not None or not result.doubtful, feasible=result.best is not None)

@@ -5,6 +5,7 @@ the best design is looked for anew, until none is worse; then everything is sear
 """
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -33,6 +34,8 @@ def best_design(
 ) -> tuple[Space, Float]:
     """Return the best point of a design space, and the space with all conditions that decide it.
 
+    Without requirements first: where that design meets them, they decide nothing.
+
     Parameters
     ----------
     space : Space
@@ -46,6 +49,23 @@ def best_design(
     spread : callable, optional
         Like `map`; it may compute in other processes.
     """
+    if not space.demands:
+        return _best_of_all(space, seed, options, progress, spread)
+    free, x = _best_of_all(replace(space, demanding=False, known=space.known[:1]), seed, options, progress, spread)
+    asked: Space | None = replace(free, demanding=True, known=(free.conditions, *space.known[1:]))
+    while asked is not None and asked.meets(x):
+        space, asked = asked, asked.with_worst(x)
+    if asked is None:
+        return space, x
+    values = asked.values(x)
+    anchor = {name: float(np.squeeze(values[name])) for name in asked.names}
+    known = replace(asked, anchors_given=(*asked.anchors_given, anchor))
+    return _best_of_all(known, seed, options, progress, spread)
+
+
+def _best_of_all(
+    space: Space, seed: int, options: Mapping[str, Any], progress: Progress, spread: Map = map
+) -> tuple[Space, Float]:
     pool = searched(space, seed, progress, spread)
     x, at_search, polished = pool[:, 0], space, False
     for _ in range(MOST_ROUNDS):
@@ -100,11 +120,13 @@ def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progres
     order = distinct(x, margin, np.full(len(margin), APART))  # several searches find the same
     x, margin = x[:, order], margin[order]
     # Local optima multiply with the variables; models come from farther, and take longer.
+    tried: set[bytes] = set()
     more = 1 if isinstance(improvers[0], LocalImprover) else searches(space)
     for turn, (starts, radius) in enumerate(TURNS):
         progress("solving the NLP", turn / len(TURNS))
         starts = min(starts * more, x.shape[1])
-        chosen = [(x[:, k], float(margin[k])) for k in range(starts)]
+        chosen = [(x[:, k], float(margin[k])) for k in range(starts) if x[:, k].tobytes() not in tried]
+        tried |= {start.tobytes() for start, _ in chosen}
         reached = [y[:, None] for improver in improvers for start in chosen for y in improver.improve(*start)]
         x = np.concatenate([x, *reached], axis=1)
         margin = space.margins_at(x)

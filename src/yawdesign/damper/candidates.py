@@ -1,9 +1,10 @@
 """What a catalogue's dampers are worth, one by one: plain data, and the reason for each refusal in a sentence."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from yawdesign.hunting.verdict import CaseVerdict, RequirementVerdict
 from yawdesign.problem import PARAMETERS, format_quantity
 from yawdesign.problem.requirements import MEASURES
 from yawdesign.problem.result import Result
@@ -38,10 +39,10 @@ class Candidate(Result):
         The condition under which it has that margin: ``speed`` [m/s].
     rotational_resistance : float or None
         T / (4 Q a), the largest of all loads [-]; None without a curve.
-    requirements : tuple of mapping
-        Each with ``name``, ``wanted``, ``reached`` and ``met``, in SI units.
-    cases : tuple of mapping
-        Each with ``name``, ``stable``, ``decay_rate`` [1/s], ``damping_ratio`` [-] and ``worst_condition``.
+    requirements : tuple of RequirementVerdict
+        What was required and reached.
+    cases : tuple of CaseVerdict
+        Stability with each fault.
     status : str
         ``ok``, or why it is refused.
     reason : str
@@ -61,8 +62,8 @@ class Candidate(Result):
     margin: float
     worst_condition: Mapping[str, Any]
     rotational_resistance: float | None
-    requirements: tuple[Mapping[str, Any], ...]
-    cases: tuple[Mapping[str, Any], ...]
+    requirements: tuple[RequirementVerdict, ...]
+    cases: tuple[CaseVerdict, ...]
     status: str
     reason: str
     searched: bool
@@ -123,14 +124,14 @@ def _shown(value: float, unit: str) -> str:
     return "rigid" if value == float("inf") else format_quantity(value, unit)
 
 
-def missed(requirements: tuple[Mapping[str, Any], ...]) -> str:
+def missed(requirements: Sequence[RequirementVerdict]) -> str:
     """Return in words which requirements are missed, and what is reached of them."""
     found = []
     for each in requirements:
-        if not each["met"]:
-            unit = MEASURES[each["name"].rpartition(".")[2]].unit
-            reached = "less" if each["reached"] is None else _amount(each["reached"], unit)
-            found.append(f"{each['name']} reaches {reached} of {_amount(each['wanted'], unit)}")
+        if not each.met:
+            unit = MEASURES[each.name.rpartition(".")[2]].unit
+            reached = "less" if each.reached is None else _amount(each.reached, unit)
+            found.append(f"{each.name} reaches {reached} of {_amount(each.wanted, unit)}")
     return "; ".join(found)
 
 

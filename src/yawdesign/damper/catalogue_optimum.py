@@ -7,17 +7,18 @@ search and no proof.
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from typing import Any, Protocol, TypeVar
+from typing import Any
 
 import numpy as np
 from scipy.stats import qmc
 
 from yawdesign.damper.choose import catalogue_of
 from yawdesign.damper.design_space import MISSED, Space
+from yawdesign.damper.optimum import Optimum
 from yawdesign.damper.scored_rows import OWN, ScoredRows, bounds_of_rows, in_groups, with_damper
 from yawdesign.hunting.arrays import Float, Index
 from yawdesign.problem import PARAMETERS, Problem, ProblemError, Variable
-from yawdesign.problem.arguments import Progress
+from yawdesign.problem.arguments import Progress, as_executor
 from yawdesign.problem.damper_catalogue import CatalogueDamper
 from yawdesign.problem.quantities import Written, exact
 
@@ -30,30 +31,13 @@ CREDIT = 2  # times the largest gain so far by which another damper may fall sho
 SPAN = 1e-9  # relative width of the bounds of C_s where nothing else is a variable
 
 
-class Answer(Protocol):
-    """What is looked at of an optimum."""
-
-    @property
-    def status(self) -> str:
-        """``optimal`` where all limits and requirements are kept."""
-        ...
-
-    @property
-    def margin(self) -> float | None:
-        """Worst margin [1/s], [-]."""
-        ...
-
-
-A = TypeVar("A", bound=Answer)
-
-
 def best_of_catalogue(
     problem: Problem,
-    optimised: Callable[[Problem], A],
+    optimised: Callable[[Problem], Optimum],
     *,
     executor: Any = None,
     progress: Progress = lambda text, part: None,
-) -> tuple[CatalogueDamper, A]:
+) -> tuple[CatalogueDamper, Optimum]:
     """Return the damper of the catalogue with which the other variables reach most, and that optimum.
 
     Parameters
@@ -62,7 +46,7 @@ def best_of_catalogue(
         With a catalogue; C_s and K_ds come from it.
     optimised : callable
         Returns the optimum of a problem without one; an executor must be able to send it.
-    executor : concurrent.futures.Executor, optional
+    executor : concurrent.futures.Executor or distributed.Client, optional
         Who optimises; by default this process.
     progress : callable, optional
         Called with a text and the share that is done, 0 ... 1.
@@ -75,9 +59,9 @@ def best_of_catalogue(
     progress("comparing the dampers", 0.0)
     promised = _promised(problem)
     least = LEAST if _others(problem) else 1
-    found: list[tuple[tuple[bool, float], CatalogueDamper, A]] = []
+    found: list[tuple[tuple[bool, float], CatalogueDamper, Optimum]] = []
     gain = 0.0
-    together = 1 if executor is None else TOGETHER
+    together, spread = (1, map) if executor is None else (TOGETHER, as_executor(executor).map)
     for batch in (promised[k : k + together] for k in range(0, len(promised), together)):
         level = max((merit for (_, merit), _, _ in found), default=-np.inf)
         some = [each for each in batch if len(found) < least or each[1] + CREDIT * gain >= level]
@@ -85,7 +69,7 @@ def best_of_catalogue(
             break
         progress(f"optimising with {some[0][0].name}", len(found) / len(promised))
         tasks = [_without_catalogue(problem, damper) for damper, _ in some]
-        answers: Iterable[A] = map(optimised, tasks) if executor is None else executor.map(optimised, tasks)
+        answers: Iterable[Optimum] = spread(optimised, tasks)
         for (damper, promise), answer in zip(some, answers, strict=True):
             margin = -np.inf if answer.margin is None else answer.margin
             found.append(((answer.status == "optimal", margin), damper, answer))

@@ -6,7 +6,7 @@ from typing import Any
 from yawdesign.damper.candidates import OK, UNVERIFIED, Candidate, Choice, rank
 from yawdesign.damper.scored_rows import ScoredRows, in_groups, verified
 from yawdesign.problem import Problem, ProblemError
-from yawdesign.problem.arguments import Progress
+from yawdesign.problem.arguments import Progress, as_executor
 from yawdesign.problem.damper_catalogue import CatalogueDamper
 
 CLOSER = 10  # of the best, for which the worst condition is searched and all is computed twice
@@ -26,7 +26,7 @@ def choose(problem: Problem, *, executor: Any = None, progress: Progress = lambd
     ----------
     problem : Problem
         With ``design.catalogue``. Bounds of C_s, if it is a design variable, leave out dampers.
-    executor : concurrent.futures.Executor, optional
+    executor : concurrent.futures.Executor or distributed.Client, optional
         Who looks closer; by default this process.
     progress : callable, optional
         Called with a text and the share that is done, 0 ... 1.
@@ -49,12 +49,12 @@ def choose(problem: Problem, *, executor: Any = None, progress: Progress = lambd
     groups = in_groups(problem, dampers)
     known = {each.name: each for group in groups for each in group.candidates()}
     rows = {damper.name: damper for damper in dampers}
-    mapped: Callable[..., Iterable[Candidate]] = executor.map if executor is not None else map
+    spread: Callable[..., Iterable[Candidate]] = map if executor is None else as_executor(executor).map
     while todo := _next(known.values()):
         closer = sum(each.searched for each in known.values())
         progress(f"closer: {', '.join(each.name for each in todo[:3])} ...", min(0.1 + 0.08 * closer, 0.95))
         alone = [ScoredRows(problem, (rows[each.name],)) for each in todo]
-        known |= {each.name: each for each in mapped(verified, alone)}
+        known |= {each.name: each for each in spread(verified, alone, todo)}
     ranked = sorted(known.values(), key=rank)
     curve = problem.curve
     return Choice(

@@ -1,6 +1,6 @@
 """Many dampers of a catalogue at once: margins, requirements, faults and the curve on arrays."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -21,18 +21,17 @@ from yawdesign.damper.candidates import (
 from yawdesign.damper.curving import curving_limit, rotational_resistance
 from yawdesign.damper.demands import demands
 from yawdesign.damper.design_space import Space
-from yawdesign.damper.second_route import AGREE
+from yawdesign.hunting.all_conditions import Judged
 from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.many.measure import Measure
 from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.many.worst_margin import WorstMargin
-from yawdesign.hunting.verdict import stability_at
-from yawdesign.hunting.worst_condition import worst_conditions
+from yawdesign.hunting.requirements import required
+from yawdesign.hunting.verdict import CaseVerdict, RequirementVerdict
 from yawdesign.problem import PARAMETERS, Problem, ProblemError, Variable, format_quantity
 from yawdesign.problem.cases import Case, Change
-from yawdesign.problem.condition import Condition
 from yawdesign.problem.condition_texts import change_text
-from yawdesign.problem.conditions import ConditionSet, condition_set
+from yawdesign.problem.conditions import condition_set
 from yawdesign.problem.damper_catalogue import CatalogueDamper
 from yawdesign.problem.table import RIGID
 from yawdesign.vehicle.vehicle import Model
@@ -86,21 +85,15 @@ class ScoredRows:
         With the catalogue.
     dampers : tuple of CatalogueDamper
         At least one.
-    known : tuple of tuple of Condition, optional
-        The conditions that are looked at: those of the margin, and those of each requirement. By default the ends of
-        all ranges, and some speeds between.
     """
 
     problem: Problem
     dampers: tuple[CatalogueDamper, ...]
-    known: tuple[tuple[Condition, ...], ...] = ()
 
     @cached_property
     def space(self) -> Space:
         """The design space of the vehicle, with the conditions that are looked at."""
         problem = with_damper(self.problem, self.dampers[0])
-        if self.known:
-            return Space(problem, known=self.known)
         given = condition_set(problem).first_look
         asked = (each.conditions.first_look for each in demands(problem, Model.of(problem)))
         return Space(problem, known=(given, *asked))
@@ -188,28 +181,28 @@ class ScoredRows:
             resistance = np.maximum(resistance, rotational_resistance(p, p["C_s"], curve))
         return resistance
 
-    def _requirements(self) -> list[list[dict[str, Any]]]:
+    def _requirements(self) -> list[list[RequirementVerdict]]:
         """Return for each requirement and each row what is wanted and reached; of faults the worst one's."""
-        found: dict[str, tuple[Any, Any, Any]] = {}
+        found: dict[str, tuple[float, Any, Any]] = {}
         for one in self.space.demanded:
             asked = one.demand.requirement
             speed = asked.measure == "critical_speed"
             reached = np.full(self.sets.size, np.nan) if speed else one.worst_of(self.sets)
-            met = one.shortfall(self.sets) < 0
+            met = one.shortfall(self.sets) <= 0
             _, least, all_met = found.get(asked.name, (0, reached, met))
             found[asked.name] = float(asked.wanted), np.minimum(least, reached), all_met & met
         return [
             [
-                {"name": name, "wanted": wanted, "reached": None if np.isnan(x) else float(x), "met": bool(met)}
-                for x, met in zip(reached, kept, strict=True)
+                RequirementVerdict(name, wanted, None if np.isnan(x) else float(x), bool(yes), {}, None, checked=False)
+                for x, yes in zip(reached, met, strict=True)
             ]
-            for name, (wanted, reached, kept) in found.items()
+            for name, (wanted, reached, met) in found.items()
         ]
 
-    def _cases(self) -> list[list[dict[str, Any]]]:
+    def _cases(self) -> list[list[CaseVerdict]]:
         return [self._case(case) for case in self.space.problem.cases]
 
-    def _case(self, case: Case) -> list[dict[str, Any]]:
+    def _case(self, case: Case) -> list[CaseVerdict]:
         """Return for each row what happens with a fault."""
         conditions, names = self.space.conditions, self.space.names
         decay, which = WorstMargin(conditions, Measure("decay_rate", names, case)).worst(self.sets)
@@ -217,13 +210,14 @@ class ScoredRows:
         every = Measure("decay_rate", self.space.model.parameters, case)
         stable = WorstMargin(conditions, every).of(self.sets) > 0
         return [
-            {
-                "name": case.name,
-                "stable": bool(stable[k]),
-                "decay_rate": float(decay[k]),
-                "damping_ratio": float(ratio[k]),
-                "worst_condition": conditions[which[k]].described,
-            }
+            CaseVerdict(
+                name=case.name,
+                stable=bool(stable[k]),
+                decay_rate=float(decay[k]),
+                damping_ratio=float(ratio[k]),
+                worst_condition=conditions[which[k]].described,
+                checked=False,
+            )
             for k in range(self.sets.size)
         ]
 
@@ -238,30 +232,32 @@ def in_groups(problem: Problem, dampers: Sequence[CatalogueDamper]) -> list[Scor
     return [ScoredRows(problem, group) for group in groups if group]
 
 
-def verified(rows: ScoredRows) -> Candidate:
+def verified(rows: ScoredRows, candidate: Candidate) -> Candidate:
     """Return what one damper is worth, with the worst conditions searched for and all verdicts taken twice.
 
     Parameters
     ----------
     rows : ScoredRows
         Of one damper.
+    candidate : Candidate
+        What arrays told of it.
     """
-    space, p = rows.space, rows.values | {name: float(rows.values[name][0]) for name in OWN if name in rows.values}
-
-    def searched(conditions: ConditionSet, measure: Measure, known: Iterable[Condition]) -> tuple[Condition, ...]:
-        found = worst_conditions(space.model, p, conditions, measure) if conditions.ranges else ()
-        return tuple(dict.fromkeys((*known, *(worst.condition for worst in found))))
-
-    given = searched(space.condition_set, space.measure, space.conditions)
-    for case in space.problem.cases:
-        given = searched(space.condition_set, Measure("decay_rate", space.names, case), given)
-    asked = [searched(one.demand.conditions, one.demand.measure, one.conditions) for one in space.demanded]
-    closer = ScoredRows(rows.problem, rows.dampers, (given, *asked))
-    [candidate] = closer.candidates()
-    results = [stability_at(space.model.at(each.applied(p)), space.names) for each in given]
-    margins = [getattr(result, space.objective) for result in results]
-    agree = all(result.checked for result in results) and abs(min(margins) - candidate.margin) <= AGREE[space.objective]
-    if not agree and candidate.status in (OK, MISSES, UNSTABLE):
+    problem = rows.space.problem
+    p = {name: float(np.squeeze(value)) for name, value in rows.values.items()}
+    judged, with_faults = Judged(problem, p), [Judged(problem, p, case) for case in problem.cases]
+    margin, worst = judged.least(rows.space.objective)
+    requirements, verdict = required(judged, with_faults), judged.verdict
+    looked = replace(
+        candidate,
+        margin=margin,
+        worst_condition=worst.described,
+        requirements=requirements,
+        cases=tuple(each.case_verdict for each in with_faults),
+        searched=True,
+    )
+    found = rows.judged(looked, -verdict.spectral_abscissa, verdict.worst_condition)
+    sure = verdict.checked and all(each.checked for each in requirements)
+    if not sure and found.status in (OK, MISSES, UNSTABLE):
         text = "eigenvalues and Routh's array differ: too close to the boundary, or too stiff, for double precision"
-        candidate = replace(candidate, status=UNVERIFIED, reason=text)
-    return replace(candidate, searched=True)
+        return replace(found, status=UNVERIFIED, reason=text)
+    return found

@@ -72,7 +72,7 @@ def _cases(shown: "tuple[Candidate, ...]") -> list[Table]:
     table = titled("Faults", "damper", "case", "stable", "decay rate [1/s]", "damping ratio [%]")
     for each in shown:
         for case in each.cases if each.status == "ok" and each.searched else ():
-            stable = "yes" if case["stable"] else "NO"
-            numbers = f"{case['decay_rate']:.4g}", f"{100 * case['damping_ratio']:.2f}"
-            table.add_row(each.name, case["name"], stable, *numbers)
+            stable = "yes" if case.stable else "NO"
+            numbers = f"{case.decay_rate:.4g}", f"{100 * case.damping_ratio:.2f}"
+            table.add_row(each.name, case.name, stable, *numbers)
     return [table] if table.row_count else []
