@@ -25,6 +25,7 @@ TABLES_BY = {
     "CriticalSpeeds": ("yawdesign.output.critical_speed_tables", "critical_speed_tables"),
     "ForwardDesign": ("yawdesign.output.tables", "design_tables"),
     "Optimum": ("yawdesign.output.optimum_tables", "optimum_tables"),
+    "Choice": ("yawdesign.output.choice_tables", "choice_tables"),
     "Sweep": ("yawdesign.output.sweep_tables", "sweep_tables"),
     "Simulation": ("yawdesign.output.response_tables", "simulation_tables"),
     "Modes": ("yawdesign.output.mode_tables", "modes_tables"),

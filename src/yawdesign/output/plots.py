@@ -15,6 +15,7 @@ DRAWN_BY: dict[str, tuple[str, str]] = {
     "CriticalSpeeds": ("yawdesign.output.critical_speed_plots", "draw_critical_speeds"),
     "ForwardDesign": ("yawdesign.output.design_plots", "draw_design"),
     "Optimum": ("yawdesign.output.design_plots", "draw_optimum"),
+    "Choice": ("yawdesign.output.choice_plots", "draw_choice"),
     "DamperComponent": ("yawdesign.output.response_plots", "damper_component"),
     "FrequencyResponse": ("yawdesign.output.response_plots", "frequency_response"),
     "Simulation": ("yawdesign.output.response_plots", "simulation"),

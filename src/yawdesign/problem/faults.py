@@ -193,7 +193,7 @@ def _allowed(around: Path, kind: str) -> tuple[str, ...]:
         case ("speed",):
             return ("min", "max", "steps")
         case ("design",):
-            return ("objective", "variables")
+            return ("objective", "variables", "catalogue")
         case ("design", "variables"):
             return tuple(dict.fromkeys((*bogie_keys(kind), *CAR_BODY)))
         case _:

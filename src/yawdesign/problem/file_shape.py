@@ -25,6 +25,7 @@ from pydantic import create_model as make
 from .cases import as_cases
 from .condition import Conditions
 from .creep import CREEP, MADE, creep_coefficients
+from .damper_catalogue import as_catalogue, catalogue_schema
 from .diagnostics import Mistakes, ProblemError
 from .parameters import BOGIE, CAR_BODY, KINDS, PARAMETERS, Bogie, CarBody, bogie_keys
 from .patterns import unit_pattern
@@ -166,7 +167,11 @@ def _design_model(kind: str) -> type[BaseModel]:
     return _model(
         "Design",
         "What may be changed, and what is to be best.",
-        {"objective": (objective, None), "variables": (some, None)},
+        {
+            "objective": (objective, None),
+            "variables": (some, None),
+            "catalogue": (_leaf(as_catalogue, catalogue_schema()), None),
+        },
     )
 
 
@@ -249,4 +254,5 @@ def _made(bogie: dict[str, Any]) -> dict[str, Any]:
 
 def _design(data: dict[str, Any]) -> Design:
     variables = {key: Variable(**bounds) for key, bounds in data.get("variables", {}).items()}
-    return Design(objective=data.get("objective", "decay_rate"), variables=variables)
+    catalogue = data.get("catalogue", ())
+    return Design(objective=data.get("objective", "decay_rate"), variables=variables, catalogue=catalogue)

@@ -231,6 +231,9 @@ class Problem:
         plain["cases"] = {case.name: {change.key: change.written for change in case.changes} for case in self.cases}
         plain["conditions"] = self.conditions.written
         plain["requirements"] = written_requirements(self.requirements)
+        catalogue = plain["design"].pop("catalogue")
+        if catalogue:
+            plain["design"]["catalogue"] = [damper.written for damper in self.design.catalogue]
         return plain
 
 

@@ -90,6 +90,7 @@ design:
   objective: decay_rate        # make the least decay rate [1/s] as large as possible, or the least damping_ratio [-]
   variables:                   # what may be changed; any parameter {of} may stand here
 {variables}
+  # catalogue: dampers.csv     # the yaw damper is one of these: `yawdesign choose` ranks them
 """
 
 
