@@ -8,6 +8,7 @@ import typer
 
 from yawdesign.cli.answering import code_of, told
 from yawdesign.cli.designs import design, optimise, stability
+from yawdesign.cli.distributions import uncertainty
 from yawdesign.cli.files import check, export, new, schema
 from yawdesign.cli.responses import modes, simulate
 from yawdesign.cli.sweeps import sweep
@@ -19,7 +20,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in (stability, design, optimise, sweep, simulate, modes, export, new, check, schema):
+for command in (stability, design, optimise, uncertainty, sweep, simulate, modes, export, new, check, schema):
     app.command()(command)
 app.command("optimize", hidden=True)(optimise)
 

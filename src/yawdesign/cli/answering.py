@@ -25,6 +25,7 @@ TABLES_BY = {
     "ForwardDesign": ("yawdesign.output.tables", "design_tables"),
     "Optimum": ("yawdesign.output.tables", "optimum_tables"),
     "Sweep": ("yawdesign.output.sweep_tables", "sweep_tables"),
+    "Uncertainty": ("yawdesign.output.uncertainty_tables", "uncertainty_tables"),
     "Simulation": ("yawdesign.output.response_tables", "simulation_tables"),
     "Modes": ("yawdesign.output.mode_tables", "modes_tables"),
     "FollowedModes": ("yawdesign.output.mode_tables", "followed_tables"),

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 DRAWN_BY: dict[str, tuple[str, str]] = {
     "Sweep": ("yawdesign.output.sweep_plots", "draw"),
     "ForwardDesign": ("yawdesign.output.design_plots", "draw_design"),
+    "Uncertainty": ("yawdesign.output.uncertainty_plots", "draw_uncertainty"),
     "Optimum": ("yawdesign.output.design_plots", "draw_optimum"),
     "DamperComponent": ("yawdesign.output.response_plots", "damper_component"),
     "FrequencyResponse": ("yawdesign.output.response_plots", "frequency_response"),

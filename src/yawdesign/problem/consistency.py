@@ -8,8 +8,10 @@ from itertools import chain
 from .cases import Case, outside
 from .condition import CREEP, CREEP_FACTOR, Conditions
 from .diagnostics import Diagnostic, unknown_key
+from .distributions import Distribution, unfit
 from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, NO_ROLL, PARAMETERS, ROLL_NEEDS_IT, VERTICAL
 from .requirements import Requirement, without_cases
+from .running import SPEED
 from .table import RIGID
 
 GRAVITY = 9.80665  # [m/s^2], the standard acceleration of free fall
@@ -27,6 +29,8 @@ def misfits(
     cases: Collection[Case],
     conditions: Conditions,
     requirements: tuple[Requirement, ...],
+    uncertainty: Collection[Distribution] = (),
+    speeds: Collection[float] = (),
 ) -> Iterator[Diagnostic]:
     """Yield what does not fit together, by dotted names.
 
@@ -46,6 +50,10 @@ def misfits(
         Under which everything must hold.
     requirements : tuple of Requirement
         What must be reached.
+    uncertainty : collection of Distribution
+        Of parameters.
+    speeds : collection of float
+        The speeds [m/s]; none where they are not known.
     """
     variables = tuple(variables)
     yield from _vertical_suspension(bogie, car_body)
@@ -62,6 +70,7 @@ def misfits(
     yield from chain.from_iterable(_of_case(case, kind, given, car_body is not None) for case in cases)
     yield from _of_conditions(conditions, kind, given, variables)
     yield from without_cases(requirements, cases)
+    yield from _of_uncertainty(uncertainty, kind, given, speeds, conditions)
 
 
 def _of_conditions(
@@ -85,6 +94,20 @@ def _of_conditions(
             if key in conditions.keys:
                 text = f"stands in conditions.{key} too: give one of the two"
                 yield Diagnostic(key=f"conditions.load.{load.name}.{key}", message=text)
+
+
+def _of_uncertainty(
+    distributions: Collection[Distribution],
+    kind: str,
+    given: Values,
+    speeds: Collection[float],
+    conditions: Conditions,
+) -> Iterator[Diagnostic]:
+    known = (*present(given), CREEP_FACTOR.key, SPEED.key)
+    for each in distributions:
+        if each.name not in known:
+            yield Diagnostic(key=f"uncertainty.{each.name}", message=why_absent(each.name, kind, given, known))
+    yield from unfit([each for each in distributions if each.name in known], given, speeds, conditions)
 
 
 def _vertical_suspension(bogie: Values, car_body: Values | None) -> Iterator[Diagnostic]:

@@ -14,6 +14,7 @@ from .condition import Conditions, read_conditions
 from .consistency import Values, misfits
 from .creep import CREEP, MADE
 from .diagnostics import Diagnostic, ProblemError, nearest, suggestion
+from .distributions import read_distributions
 from .document import Path
 from .file_shape import SWITCHES
 from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, bogie_keys, incomplete, parameter_keys
@@ -22,7 +23,10 @@ from .table import Parameter
 
 _NO_ROBUST = "is not a known key: what must hold stands under conditions, such as lambda: [0.05, 0.40]"
 _TAGS = ("<range>", "<value>")
-_TOP = ("title", "equations", "bogie", "car_body", "speed", "curve", "conditions", "cases", "requirements", "design")
+_TOP = (
+    *("title", "equations", "bogie", "car_body", "speed", "curve", "conditions", "cases", "requirements", "design"),
+    "uncertainty",
+)
 _ROWS: Mapping[str, Mapping[str, Parameter]] = {"bogie": BOGIE, "car_body": CAR_BODY, "curve": CURVE}
 _AT_KEY = ("bogie", "car_body", "design")  # where parts do not fit together, it is a key that should not be there
 
@@ -66,6 +70,7 @@ def disagreements(data: Mapping[str, Any], kind: str) -> Iterator[Fault]:
         cases=read_cases(data["cases"])[0] if "cases" in data else (),
         conditions=read_conditions(data["conditions"])[0] if "conditions" in data else Conditions(),
         requirements=(),
+        uncertainty=read_distributions(data["uncertainty"])[0] if "uncertainty" in data else (),
     )
     yield from placed(data, chain(incomplete(bogie), found))
 

@@ -26,6 +26,7 @@ from .cases import as_cases
 from .condition import Conditions, as_conditions
 from .creep import CREEP, MADE, creep_coefficients
 from .diagnostics import Mistakes, ProblemError
+from .distributions import as_distributions
 from .parameters import BOGIE, CAR_BODY, KINDS, PARAMETERS, Bogie, CarBody, bogie_keys
 from .patterns import unit_pattern
 from .problem import EQUATIONS, Problem
@@ -203,6 +204,7 @@ def problem_model(
             "cases": (_leaf(as_cases, {"description": "Faults that must be survived, by name."}), None),
             "requirements": (_leaf(as_requirements, {"description": "What must be reached."}), None),
             "design": (_design_model(kind), None),
+            "uncertainty": (_leaf(as_distributions, {"description": "Distributions of parameters."}), None),
         },
     )
 
@@ -221,6 +223,7 @@ def build(model: BaseModel) -> Problem:
         cases=data.get("cases", ()),
         conditions=data.get("conditions", Conditions()),
         requirements=data.get("requirements", ()),
+        uncertainty=data.get("uncertainty", ()),
         design=_design(data.get("design", {})),
     )
 
