@@ -66,7 +66,7 @@ def _parameters(result: "Uncertainty") -> Table:
             if effect.margin is None
             else f"{'+' * (effect.margin > 0)}{margin(effect.margin, result.objective)}"
         )
-        table.add_row(name, *shares, change, "none" if effect.C_sl is None else f"{effect.C_sl:+.2f}")
+        table.add_row(name, *shares, change, "none" if effect.sensitivity is None else f"{effect.sensitivity:+.2f}")
     return table
 
 

@@ -25,12 +25,12 @@ class Effect:
     ----------
     margin : float or None
         Change of the margin when the parameter grows by one standard deviation, linearly: [1/s] or [-].
-    C_sl : float or None
+    sensitivity : float or None
         d ln C_sl / d ln p [-].
     """
 
     margin: float | None
-    C_sl: float | None
+    sensitivity: float | None
 
 
 @dataclass(frozen=True)
