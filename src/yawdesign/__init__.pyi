@@ -61,5 +61,7 @@ from yawdesign.response.track.tracks import Sinusoid as Sinusoid
 from yawdesign.study.result import Sweep as Sweep
 from yawdesign.study.sweep import IncompleteSweepError as IncompleteSweepError
 from yawdesign.study.sweep import sweep as sweep
+from yawdesign.study.uncertainty import Uncertainty as Uncertainty
+from yawdesign.study.uncertainty import uncertainty as uncertainty
 
 __version__: str

@@ -9,6 +9,7 @@ import typer
 from yawdesign.cli.answering import code_of, told
 from yawdesign.cli.choices import choose
 from yawdesign.cli.designs import critical_speed, design, optimise, stability
+from yawdesign.cli.distributions import uncertainty
 from yawdesign.cli.files import check, export, new, schema
 from yawdesign.cli.responses import modes, simulate
 from yawdesign.cli.sweeps import sweep
@@ -21,7 +22,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 COMMANDS = (
-    *(stability, critical_speed, design, optimise, choose),
+    *(stability, critical_speed, design, optimise, choose, uncertainty),
     *(sweep, simulate, modes, export, new, check, schema),
 )
 for command in COMMANDS:

@@ -27,6 +27,7 @@ TABLES_BY = {
     "Optimum": ("yawdesign.output.optimum_tables", "optimum_tables"),
     "Choice": ("yawdesign.output.choice_tables", "choice_tables"),
     "Sweep": ("yawdesign.output.sweep_tables", "sweep_tables"),
+    "Uncertainty": ("yawdesign.output.uncertainty_tables", "uncertainty_tables"),
     "Simulation": ("yawdesign.output.response_tables", "simulation_tables"),
     "Modes": ("yawdesign.output.mode_tables", "modes_tables"),
     "FollowedModes": ("yawdesign.output.mode_tables", "followed_tables"),

@@ -27,6 +27,7 @@ from .condition import Conditions
 from .creep import CREEP, MADE, creep_coefficients
 from .damper_catalogue import as_catalogue, catalogue_schema
 from .diagnostics import Mistakes, ProblemError
+from .distributions import as_distributions
 from .parameters import BOGIE, CAR_BODY, KINDS, PARAMETERS, Bogie, CarBody, bogie_keys
 from .patterns import unit_pattern
 from .problem import EQUATIONS, Problem
@@ -210,6 +211,7 @@ def problem_model(
             "cases": (_leaf(as_cases, {"description": "Faults that must be survived, by name."}), None),
             "requirements": (_leaf(as_requirements, {"description": "What must be reached."}), None),
             "design": (_design_model(kind), None),
+            "uncertainty": (_leaf(as_distributions, {"description": "Distributions of parameters."}), None),
         },
     )
 
@@ -228,6 +230,7 @@ def build(model: BaseModel) -> Problem:
         cases=data.get("cases", ()),
         conditions=data.get("conditions", Conditions()),
         requirements=data.get("requirements", ()),
+        uncertainty=data.get("uncertainty", ()),
         design=_design(data.get("design", {})),
     )
 
