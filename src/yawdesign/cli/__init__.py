@@ -11,6 +11,7 @@ from yawdesign.cli.designs import design, optimise, stability
 from yawdesign.cli.files import check, export, new, schema
 from yawdesign.cli.responses import modes, simulate
 from yawdesign.cli.sweeps import sweep
+from yawdesign.cli.trade_offs import trade_off
 from yawdesign.output.streams import ANSWER, discard, open_streams, tell
 
 app = typer.Typer(
@@ -19,7 +20,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in (stability, design, optimise, sweep, simulate, modes, export, new, check, schema):
+for command in (stability, design, optimise, trade_off, sweep, simulate, modes, export, new, check, schema):
     app.command()(command)
 app.command("optimize", hidden=True)(optimise)
 

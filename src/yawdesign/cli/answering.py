@@ -24,6 +24,7 @@ TABLES_BY = {
     "Stability": ("yawdesign.output.tables", "stability_tables"),
     "ForwardDesign": ("yawdesign.output.tables", "design_tables"),
     "Optimum": ("yawdesign.output.tables", "optimum_tables"),
+    "TradeOff": ("yawdesign.output.trade_off_tables", "trade_off_tables"),
     "Sweep": ("yawdesign.output.sweep_tables", "sweep_tables"),
     "Simulation": ("yawdesign.output.response_tables", "simulation_tables"),
     "Modes": ("yawdesign.output.mode_tables", "modes_tables"),

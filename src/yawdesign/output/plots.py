@@ -14,6 +14,7 @@ DRAWN_BY: dict[str, tuple[str, str]] = {
     "Sweep": ("yawdesign.output.sweep_plots", "draw"),
     "ForwardDesign": ("yawdesign.output.design_plots", "draw_design"),
     "Optimum": ("yawdesign.output.design_plots", "draw_optimum"),
+    "TradeOff": ("yawdesign.output.trade_off_plots", "draw_trade_off"),
     "DamperComponent": ("yawdesign.output.response_plots", "damper_component"),
     "FrequencyResponse": ("yawdesign.output.response_plots", "frequency_response"),
     "Simulation": ("yawdesign.output.response_plots", "simulation"),
