@@ -96,15 +96,16 @@ def _search(space: Space, seed: int) -> Float:
 
 def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
     """Return the best point after IPOPT and refinement in turn: each leaves the ridges on which the other stops."""
-    rng, margin, improver = np.random.default_rng(seed), space.margins_at(x), _improver(space, options)
+    rng, margin, improvers = np.random.default_rng(seed), space.margins_at(x), _improvers(space, options)
     order = distinct(x, margin, np.full(len(margin), APART))  # several searches find the same
     x, margin = x[:, order], margin[order]
     # Local optima multiply with the variables; models come from farther, and take longer.
-    more = searches(space) if isinstance(improver, Improver) else 1
+    more = 1 if isinstance(improvers[0], LocalImprover) else searches(space)
     for turn, (starts, radius) in enumerate(TURNS):
         progress("solving the NLP", turn / len(TURNS))
         starts = min(starts * more, x.shape[1])
-        reached = [y[:, None] for k in range(starts) for y in improver.improve(x[:, k], float(margin[k]))]
+        chosen = [(x[:, k], float(margin[k])) for k in range(starts)]
+        reached = [y[:, None] for improver in improvers for start in chosen for y in improver.improve(*start)]
         x = np.concatenate([x, *reached], axis=1)
         margin = space.margins_at(x)
         order = np.argsort(-margin, kind="stable")[:MOST_REFINED]
@@ -113,11 +114,13 @@ def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progres
     return x[:, 0]
 
 
-def _improver(space: Space, options: Mapping[str, Any]) -> Improver | LocalImprover:
-    """Return the NLP of whole polynomials, or that of models.
+def _improvers(space: Space, options: Mapping[str, Any]) -> list[Improver | LocalImprover]:
+    """Return the NLP of whole polynomials and that of models.
 
-    Models serve where coefficients of so high a degree say too little, and where requirements are to be met.
+    Models serve where coefficients of so high a degree say too little, and where requirements are to be met: these the
+    NLP of polynomials does not know, and reaches a point that is no good where they decide.
     """
     coupled, states = space.model.motions[0], space.model.states
     large = len(states.states_of(coupled.coordinates)) > MOST_FACTORED
-    return (LocalImprover if space.pairs or large or space.demands else Improver)(space, options)
+    by_models = [LocalImprover(space, options)] if space.pairs or large or space.demands else []
+    return [*by_models, *([] if space.pairs or large else [Improver(space, options)])]

@@ -145,7 +145,10 @@ class Space:
 
     def values(self, x: Float) -> Values:
         """Return all parameters and C_s at points of the unit cube, shape (variables, ...)."""
-        out = dict(self.fixed)
+        return self._placed(x, dict(self.fixed))
+
+    def _placed(self, x: Float, out: Values) -> Values:
+        """Return other values with those of the variables in them."""
         for name, coordinate in zip(self.names, x, strict=True):
             out[name] = between(*self._ends(name, out), coordinate, scale(name))
         return out
@@ -156,14 +159,22 @@ class Space:
         places = [fraction(*self._ends(name, known), float(values[name]), scale(name)) for name in self.names]
         return np.asarray(np.clip(np.array(places), 0, 1))
 
-    def _ends(self, name: str, known: Values) -> tuple[float, Any]:
+    def _ends(self, name: str, known: Values) -> tuple[Any, Any]:
         """Return the ends of a coordinate: the bounds, and for C_s what the curve allows with the other values."""
-        low, high = self.bounds(name)
+        low, high = self._bounds_with(name, known)
         if name == "C_s" and self.curve is not None:
-            for load in self.loads:
-                high = np.minimum(high, curving_limit(load.applied(known), self.curve))
+            for p in self._in_curve(known):
+                high = np.minimum(high, curving_limit(p, self.curve))
             return low, np.maximum(low, high)
         return low, high
+
+    def _bounds_with(self, name: str, known: Values) -> tuple[Any, Any]:  # noqa: ARG002
+        """Return the bounds of a variable where other values are known."""
+        return self.bounds(name)
+
+    def _in_curve(self, values: Values) -> list[Values]:
+        """Return the parameters with which the curve is passed, under each of the conditions that differ for it."""
+        return [load.applied(values) for load in self.loads]
 
     @cached_property
     def gentlest(self) -> Float:
@@ -184,7 +195,7 @@ class Space:
         kept, curve = np.asarray(True), self.curve
         if curve is None:
             return kept
-        for p in (load.applied(values) for load in self.loads):
+        for p in self._in_curve(values):
             allowed = curve.limit * resistance_scale(p, curve)
             kept = kept & (allowed * (1 + 1e-12) >= resisting_moment(p, p["C_s"], curve))
         return kept

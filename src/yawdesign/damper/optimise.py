@@ -8,10 +8,11 @@ import numpy as np
 
 from yawdesign.damper.best_design import best_design
 from yawdesign.damper.capping import GIVEN_AWAY, CappingMode, at_design, capping_modes, names_of, sensitivity
-from yawdesign.damper.curving import excess
+from yawdesign.damper.curving import excess, largest_resistance
 from yawdesign.damper.design_space import Space, fraction, scale
-from yawdesign.damper.forward import ForwardDesign, design, forward_design, others_stable, resistance
+from yawdesign.damper.forward import ForwardDesign, design, forward_design
 from yawdesign.damper.second_route import AGREE, hurwitz_positive, margin_by_routh
+from yawdesign.damper.stable_intervals import others_stable
 from yawdesign.damper.status import Status
 from yawdesign.hunting.arrays import Float
 from yawdesign.hunting.many.measure import Measure
@@ -227,12 +228,12 @@ def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
     agree = all(result.checked for result in results) and abs(second - margin) <= AGREE[space.objective]
     agree = agree and abs(nexts[0] - nexts[1]) <= AGREE[space.objective]
     status = (Status.OPTIMAL if stable else Status.UNSTABLE) if agree else Status.UNVERIFIED_OPTIMUM
-    helpless = status == Status.UNSTABLE and not others_stable(vehicles)
+    helpless = status == Status.UNSTABLE and not all(others_stable(vehicle) for vehicle in vehicles)
     bounds = {name: _bound(space, name, values[name]) for name in space.names}
-    resisted = resistance(vehicles, values["C_s"], space.curve)
+    resisted = space.curve and largest_resistance(values, values["C_s"], space.loads, space.curve)
     return _optimum(
         space,
-        forward_design(vehicles, space.curve),
+        forward_design(space.model, values, space.condition_set, space.curve),
         status,
         optimum={name: values.get(name) for name in _named(space)},
         margin=margin,

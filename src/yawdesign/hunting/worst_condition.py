@@ -7,6 +7,7 @@ a search and no proof: a narrow dip between the points of the grid may be missed
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
 from typing import Any
 
@@ -75,6 +76,14 @@ def worst_conditions(model: Model, p: dict[str, Any], conditions: ConditionSet, 
     return tuple(sorted(worst, key=lambda one: one.margin))
 
 
+def exceeds_everywhere(
+    model: Model, p: dict[str, Any], conditions: ConditionSet, measure: Measure, level: float
+) -> bool:
+    """Return whether a margin surely exceeds a level at every point of the grid; the other arguments as above."""
+    yes, sure = measure.exceeds(_sets(model, p, conditions, *_grid(conditions)), level)
+    return bool(np.all(yes & sure))
+
+
 def _names(conditions: ConditionSet) -> tuple[list[str], Float]:
     ends = np.array([ends for _, ends in conditions.ranges], dtype=float).reshape(-1, 2)
     return [name for name, _ in conditions.ranges], ends
@@ -93,6 +102,7 @@ def _grid(conditions: ConditionSet) -> tuple[Index, Float]:
     return np.repeat(np.arange(lists), x.shape[1]), np.tile(x, lists)
 
 
+@lru_cache
 def _points(d: int, most: int) -> Float:
     if d == 0:
         return np.zeros((0, 1))
