@@ -30,7 +30,7 @@ class LeastResistance(Space):
 
     def beats(self, values: Values, level: Float | float) -> Bools:
         """Return where the merit exceeds a level. Parameters as in `Space.beats`."""
-        merit = -largest_resistance(self, values)
+        merit = -resistances(self, values)
         shape = np.broadcast_shapes(*map(np.shape, values.values()))
         out = np.broadcast_to(merit > level, shape).copy()
         some = {name: np.broadcast_to(value, shape)[out] if np.ndim(value) else value for name, value in values.items()}
@@ -41,7 +41,7 @@ class LeastResistance(Space):
     def margins(self, values: Values) -> Float:
         """Return the merits. Parameter as in `beats`."""
         enough = super().beats(values, self.level)
-        return np.where(enough, -largest_resistance(self, values), -np.inf)
+        return np.where(enough, -resistances(self, values), -np.inf)
 
     def gentlest_design(self, seed: int, progress: Progress) -> tuple[Self, Float] | None:
         """Return the point of the cube with the largest merit, and the space with all conditions that decide it.
@@ -75,7 +75,7 @@ class LeastResistance(Space):
         return x[:, 0]
 
 
-def largest_resistance(space: Space, values: Values) -> Float:
+def resistances(space: Space, values: Values) -> Float:
     """Return the largest T / (4 Q a) [-] of designs under all conditions; the space has a curve.
 
     Parameters
@@ -85,8 +85,6 @@ def largest_resistance(space: Space, values: Values) -> Float:
     values : mapping
         Parameters and C_s in SI units: numbers, or arrays of one shape (n,).
     """
-    curve = space.curve
-    if curve is None:
-        raise ValueError("no curve")
+    assert space.curve is not None
     loads = [load.applied(values) for load in space.loads]
-    return np.asarray(np.max([rotational_resistance(p, p["C_s"], curve) for p in loads], axis=0))
+    return np.asarray(np.max([rotational_resistance(p, p["C_s"], space.curve) for p in loads], axis=0))

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from yawdesign.damper.design_space import Space
-from yawdesign.damper.least_resistance import largest_resistance
+from yawdesign.damper.least_resistance import resistances
 from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.verdict import stability_at
 from yawdesign.hunting.worst_condition import worst_conditions
@@ -126,7 +126,7 @@ def described(space: Space, values: Mapping[str, Any], *, searched: bool = False
     margin = min(margins)
     sets = ParameterSets(space.model, dict(values), 1)
     return {
-        "rotational_resistance": float(largest_resistance(space, dict(values))),
+        "rotational_resistance": float(resistances(space, dict(values))),
         "margin": margin,
         **{name: values.get(name) for name in dict.fromkeys(("C_s", "K_m", "C_m", *space.names))},
         "worst_condition": conditions[margins.index(margin)].described,

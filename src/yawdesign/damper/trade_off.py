@@ -15,7 +15,7 @@ from yawdesign.damper.best_design import best_design
 from yawdesign.damper.curving import excess
 from yawdesign.damper.design_space import Space
 from yawdesign.damper.forward import design
-from yawdesign.damper.least_resistance import LeastResistance, largest_resistance
+from yawdesign.damper.least_resistance import LeastResistance, resistances
 from yawdesign.damper.pareto_front import GAIN, Point, TradeOff, described, pareto
 from yawdesign.damper.status import Status
 from yawdesign.hunting.arrays import Float
@@ -157,7 +157,8 @@ class _Front:
     def _finished(self, first: Solved, last: Solved, count: int) -> TradeOff:
         """Return the front between its ends."""
         solved, limits = {self._resistance(last): last}, self._between(first, last, count)
-        tasks = [_Task(_limited(self.problem, limit), *(last if k else first), self.seed) for k, limit in enumerate(limits)]
+        begins = [first, *[last] * len(limits)]
+        tasks = [_Task(_limited(self.problem, r), *near, self.seed) for r, near in zip(limits, begins, strict=False)]
         try:
             for k, (limit, one) in enumerate(self._each(limits, tasks)):
                 solved[limit] = one
@@ -203,7 +204,7 @@ class _Front:
         return float(Space(self.space.problem, known=known).margins(dict(values)))
 
     def _resistance(self, solved: Solved) -> float:
-        return float(largest_resistance(self.space, dict(solved[1])))
+        return float(resistances(self.space, dict(solved[1])))
 
     def _points(self, solved: Iterable[Solved]) -> tuple[Point, ...]:
         return pareto(described(Space(self.space.problem, known=known), values) for known, values in solved)

@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
+from yawdesign.damper.curving import RAISING
 from yawdesign.output.pictures import new_axes
 from yawdesign.output.sweep_style import SHOWN, WIDE
 from yawdesign.problem import PARAMETERS, ProblemError, to_unit
@@ -36,6 +37,8 @@ def draw_trade_off(result: "TradeOff", ax: "Axes | None" = None) -> "Axes":
     for panel, name in zip(below, result.variables, strict=False):
         _draw_variable(result, panel, name)
     (below or [ax])[-1].set_xlabel("rotational resistance $T/(4Qa)$ [-]")
+    if below:
+        below[0].get_figure(root=True).align_ylabels()  # type: ignore[union-attr]
     return ax
 
 
@@ -76,7 +79,8 @@ def _draw_variable(result: "TradeOff", ax: "Axes", name: str) -> None:
         if point is not None and point[name] is not None:
             place = point["rotational_resistance"], point[name] * factor
             ax.plot(*place, marker, color="black", markerfacecolor="white", markersize=6)
-    if min(values) > 0 and max(values) > WIDE / 3 * min(values):
+    # The resistance is linear in what it rises with.
+    if name not in RAISING and min(values) > 0 and max(values) > WIDE / 3 * min(values):
         ax.set_yscale("log")
     ax.set_ylabel(f"${row.symbol}$" + (f"\n[{unit}]" if unit != "-" else ""))
     ax.grid(color="#dddddd", linewidth=0.6)

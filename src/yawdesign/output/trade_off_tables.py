@@ -7,6 +7,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from yawdesign.output.condition_texts import condition_text
 from yawdesign.output.tables import facts, margin, titled
 from yawdesign.problem import PARAMETERS, format_quantity
 
@@ -38,19 +39,5 @@ def _table(result: "TradeOff", beside: list[tuple[str, Mapping[str, Any]]]) -> T
         values = [format_quantity(point[key], PARAMETERS[key].unit, DIGITS) for key in names]
         stable = ("yes" if point["stable"] else "NO") if point["checked"] else "not verified"
         cells = [f"{point['rotational_resistance']:.5f}", margin(point["margin"], result.objective), *values]
-        table.add_row(name, *cells, Text(_condition(point["worst_condition"])), stable)
+        table.add_row(name, *cells, Text(condition_text(point["worst_condition"])), stable)
     return table
-
-
-def _condition(worst: Mapping[str, Any]) -> str:
-    """Return a condition in words."""
-    return ", ".join(_value(name, value) for name, value in worst.items())
-
-
-def _value(name: str, value: Any) -> str:
-    if name == "speed":
-        return format_quantity(value, "km/h", DIGITS)
-    if isinstance(value, str):
-        return value
-    unit = PARAMETERS[name].unit if name in PARAMETERS else "-"
-    return f"{name} {value:.4g}" if unit == "-" else f"{name} {format_quantity(value, unit, DIGITS)}"
