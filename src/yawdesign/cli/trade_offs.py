@@ -8,7 +8,9 @@ import typer
 
 from yawdesign.cli.answering import (
     AsJson,
+    Dask,
     Force,
+    Jobs,
     ProblemFile,
     code_of,
     ended,
@@ -29,8 +31,8 @@ def trade_off(
     csv: Annotated[str | None, typer.Option(help="Write a table.")] = None,
     plot: Annotated[str | None, typer.Option(help="Draw a picture: .png, .pdf or .svg.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the search points.")] = 0,
-    jobs: Annotated[int, typer.Option(min=1, help="Number of processes.")] = 1,
-    dask: Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")] = None,
+    jobs: Jobs = 1,
+    dask: Dask = None,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
@@ -40,10 +42,9 @@ def trade_off(
         write = _outputs(file, csv, plot, force)
         from yawdesign.damper.trade_off import IncompleteTradeOffError
         from yawdesign.damper.trade_off import trade_off as front
-        from yawdesign.study.executors import as_executor, workers
+        from yawdesign.study.executors import workers
 
-        with workers(jobs, dask) as who:
-            executor = None if who is None else as_executor(who)
+        with workers(jobs, dask) as executor:
             try:
                 with progress_shown() as progress:
                     result = front(problem, points=points, seed=seed, executor=executor, progress=progress)

@@ -2,7 +2,7 @@
 
 import csv
 import io
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -10,10 +10,8 @@ from typing import Any
 
 from yawdesign.damper.design_space import Space
 from yawdesign.damper.least_resistance import resistances
-from yawdesign.hunting.many.parameter_sets import ParameterSets
-from yawdesign.hunting.verdict import stability_at
-from yawdesign.hunting.worst_condition import worst_conditions
-from yawdesign.problem.condition import Condition
+from yawdesign.hunting.all_conditions import Judged
+from yawdesign.hunting.requirements import requirement_verdicts
 from yawdesign.problem.result import Result, plain
 from yawdesign.problem.whole_files import whole_file
 
@@ -33,7 +31,7 @@ class TradeOff(Result):
         Its points, in the order of their resistance and of their margin: ``rotational_resistance`` T / (4 Q a), the
         largest, and ``margin``, the least under all conditions, ``C_s``, ``K_m``, ``C_m`` and every other design
         variable in SI units, ``worst_condition``, ``stable``, ``checked`` (eigenvalues and Routh's array agree) and
-        ``requirements``.
+        ``requirements``, as `stability` has them.
     objective : {"decay_rate", "damping_ratio"}
         Which margin.
     limit : float
@@ -101,55 +99,31 @@ def pareto(points: Iterable[Point]) -> tuple[Point, ...]:
     """Return those points that are stable, meet the requirements, and that none with less resistance beats."""
     front: list[Point] = []
     for point in sorted(points, key=lambda point: (point["rotational_resistance"], -point["margin"])):
-        met = all(each["met"] for each in point["requirements"])
+        met = all(each.met for each in point["requirements"])
         more = not front or point["margin"] > front[-1]["margin"] * (1 + GAIN)
         if point["stable"] and met and more:
             front.append(point)
     return tuple(front)
 
 
-def described(space: Space, values: Mapping[str, Any], *, searched: bool = False) -> dict[str, Any]:
-    """Return a design as a point of the front has it, its margin from the whole state matrix under each condition.
+def described(space: Space, values: Mapping[str, float]) -> dict[str, Any]:
+    """Return a design as a point of the front has it, verified under all conditions.
 
     Parameters
     ----------
     space : Space
-        With the conditions.
+        With the problem.
     values : mapping
         All parameters, ``C_s`` among them, in SI units.
-    searched : bool, optional
-        Whether the worst condition is looked for inside ranges: where the space does not know it yet.
     """
-    conditions = [*space.conditions, *(_worst_inside(space, values) if searched else ())]
-    results = [stability_at(space.model.at(each.applied(values)), space.names) for each in conditions]
-    margins = [float(getattr(result, space.objective)) for result in results]
-    margin = min(margins)
-    sets = ParameterSets(space.model, dict(values), 1)
+    judged = Judged(space.problem, values)
+    margin, worst = judged.least(space.objective)
     return {
         "rotational_resistance": float(resistances(space, dict(values))),
         "margin": margin,
         **{name: values.get(name) for name in dict.fromkeys(("C_s", "K_m", "C_m", *space.names))},
-        "worst_condition": conditions[margins.index(margin)].described,
-        "stable": all(result.stable for result in results),
-        "checked": all(result.checked for result in results),
-        "requirements": _requirements(space, sets),
+        "worst_condition": worst.described,
+        "stable": judged.verdict.stable,
+        "checked": judged.checked,
+        "requirements": requirement_verdicts(space.problem, values),
     }
-
-
-def _worst_inside(space: Space, values: Mapping[str, Any]) -> Sequence[Condition]:
-    if not space.condition_set.ranges:
-        return ()
-    found = worst_conditions(space.model, dict(values), space.condition_set, space.measure)
-    return [worst.condition for worst in found]
-
-
-def _requirements(space: Space, sets: ParameterSets) -> tuple[dict[str, Any], ...]:
-    """Return what is required, and whether it is met, those of faults for each fault."""
-    return tuple(
-        {
-            "name": one.demand.requirement.name,
-            "wanted": one.demand.requirement.wanted,
-            "met": bool(one.shortfall(sets)[0] <= 0),
-        }
-        for one in space.demanded
-    )

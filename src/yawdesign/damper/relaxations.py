@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from yawdesign.damper.changed_problem import Way, ways, with_value
-from yawdesign.damper.design_space import Space
-from yawdesign.damper.relaxed_space import RelaxedSpace
+from yawdesign.damper.design_space import MISSED, Space
+from yawdesign.damper.relaxed_space import STABILITY, RelaxedSpace
 from yawdesign.damper.stencils import Landscape, distinct, refine
 from yawdesign.hunting.arrays import Float
 from yawdesign.problem import Problem, ProblemError
@@ -149,6 +149,51 @@ def _of_design(space: RelaxedSpace, value: float, changed: Space, x: Float) -> R
         margin=margin,
         met=margin > 0,
     )
+
+
+def conflict(problem: Problem, *, seed: int = 0) -> tuple[str, ...]:
+    """Return what a problem without an answer demands in vain: any of it can be had without one other, but not all.
+
+    Parameters
+    ----------
+    problem : Problem
+        Without an answer.
+    seed : int, optional
+        Of the search points.
+
+    Returns
+    -------
+    tuple of str
+        Keys of a problem file, and ``"stability"``. There may be other such sets.
+    """
+    bounds = [f"design.variables.{name}" for name in problem.design.variables]
+    curve = [] if problem.curve is None else ["curve.limit"]
+    left = [*(f"requirements.{each.name}" for each in problem.requirements), STABILITY, *bounds, *curve]
+    for name in tuple(left):
+        others = [one for one in left if one != name]
+        if not _is_possible(_demanding(problem, others), 0.0 if STABILITY in others else -MISSED, seed):
+            left = others
+    return tuple(left)
+
+
+def _demanding(problem: Problem, names: Sequence[str]) -> Problem:
+    """Return a problem that demands some of what it did; bounds that are not demanded are far away."""
+    for way in ways(problem):
+        if way.kind == "bound" and way.name.rpartition(".")[0] not in names:
+            problem = with_value(problem, way, way.far)
+    kept = tuple(each for each in problem.requirements if f"requirements.{each.name}" in names)
+    return problem.replace(requirements=kept, curve=problem.curve if "curve.limit" in names else None)
+
+
+def _is_possible(problem: Problem, level: float, seed: int) -> bool:
+    """Return whether a search finds a design with a merit above a level."""
+    space = Space(problem)
+    if not np.any(space.feasible(space.values(space.gentlest))):
+        return False
+    block = np.random.default_rng(seed).random((len(space.names), BLOCK))
+    if space.beats_at(block, np.full(BLOCK, level)).any():
+        return True
+    return bool(space.margins_at(best_point(space, space.anchors, seed))[0] > level)
 
 
 def best_point(space: Space, anchors: Float, seed: int) -> Float:

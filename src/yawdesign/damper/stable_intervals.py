@@ -15,9 +15,9 @@ import numpy as np
 
 from yawdesign.damper.decision import Crossings, Decision, decide, together
 from yawdesign.hunting.critical_damping import CriticalDamping, CriticalValue, critical_damping
+from yawdesign.hunting.many import margins
 from yawdesign.hunting.many.critical_table import natural_damping
 from yawdesign.hunting.many.critical_values import critical_field
-from yawdesign.hunting.many import margins
 from yawdesign.hunting.many.measure import Measure
 from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.many.worst_margin import under_conditions

@@ -7,7 +7,7 @@ they may be looked for in several processes; one that a point with less resistan
 
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Executor, as_completed
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from yawdesign.damper.pareto_front import GAIN, Point, TradeOff, described, pare
 from yawdesign.damper.status import Status
 from yawdesign.hunting.arrays import Float
 from yawdesign.problem import Problem, ProblemError
-from yawdesign.problem.arguments import Progress
+from yawdesign.problem.arguments import Progress, as_executor
 from yawdesign.problem.condition import Condition
 from yawdesign.problem.stopping import held
 from yawdesign.problem.table import as_count, as_seed
@@ -29,6 +29,7 @@ LEAST = {"decay_rate": 1e-4, "damping_ratio": 1e-5}  # margin with which a desig
 MOST_POINTS = 1000
 FARTHEST = 2.0  # the last resistance, in the curve's limit
 INACTIVE = 1e-4  # share of the limit by which a design stays below it where it has no part in the optimum
+TURNS = ((2, 1e-3), (1, 1e-5))  # of NLP and refinement, for each point
 
 Known = tuple[tuple[Condition, ...], ...]
 Values = dict[str, float]
@@ -66,7 +67,7 @@ def trade_off(
     *,
     points: int = 12,
     seed: int = 0,
-    executor: Executor | None = None,
+    executor: Any = None,
     progress: Progress = lambda text, part: None,
 ) -> TradeOff:
     """Return the front between margin and rotational resistance: designs that no other beats in both.
@@ -80,8 +81,8 @@ def trade_off(
         For how many resistances the best design is looked for, 2 or more. With three or more one is the curve's limit.
     seed : int, optional
         Of the search points.
-    executor : concurrent.futures.Executor, optional
-        Who computes; by default this process. A dask client gives one by its ``get_executor()``.
+    executor : concurrent.futures.Executor or distributed.Client, optional
+        Who computes; by default this process.
     progress : callable, optional
         Called with a text and the share that is done, 0 ... 1.
 
@@ -100,7 +101,9 @@ def trade_off(
         raise ProblemError("curve is missing: without a curve there is no rotational resistance to trade off")
     if "C_s" not in problem.design.variables and problem.bogie.C_s is None:
         raise ProblemError("bogie.C_s is missing: give its value, or make it a design variable")
-    return _Front(problem, as_seed(seed) or 0, executor, progress).found(count)
+    return _Front(problem, as_seed(seed) or 0, None if executor is None else as_executor(executor), progress).found(
+        count
+    )
 
 
 class _Front:
@@ -207,7 +210,7 @@ class _Front:
         return float(resistances(self.space, dict(solved[1])))
 
     def _points(self, solved: Iterable[Solved]) -> tuple[Point, ...]:
-        return pareto(described(Space(self.space.problem, known=known), values) for known, values in solved)
+        return pareto(described(self.space, values) for _, values in solved)
 
     def _judged(self, front: Sequence[Point]) -> tuple[Status, str]:
         """Return what kind of answer a front is, and that in a sentence."""
@@ -238,14 +241,18 @@ class _Front:
         if C_s is None:
             return None
         values = {name: float(value) for name, value in self.problem.parameters().items()}
-        return described(self.space, {**values, "C_s": C_s}, searched=True)
+        return described(self.space, {**values, "C_s": C_s})
 
 
 def _solved(problem: Problem, known: Known, near: Values, seed: int) -> Solved:
     """Return the best design of a problem, whose search begins with known conditions and a known design."""
     given = ({name: near[name] for name in problem.design.variables},)
-    space, x = best_design(Space(problem, known=known, anchors_given=given), seed, {}, lambda text, part: None)
+    space, x = best_design(Space(problem, known=known, anchors_given=given), seed, {}, _silent, turns=TURNS)
     return (space.conditions, *(one.conditions for one in space.demanded)), _numbers(space, x)
+
+
+def _silent(text: str, part: float) -> None:
+    """Show no progress: that of one point is not that of the front."""
 
 
 def _limited(problem: Problem, limit: float) -> Problem:

@@ -30,6 +30,7 @@ FEW = 192  # conditions of which the margins are all computed
 MOST_LOOKS = 12
 SLACK = 0.1  # of the lowest margin: conditions with so much more are starts too
 STARTS = 5  # conditions from which the lowest margin nearby is looked for
+LOWEST = -1e9  # what counts as a margin of minus infinity
 APART = 1e-3  # two that are closer than this, relative to the ranges, are one
 STEP = 1e-5  # of the differences along a range, relative to it
 
@@ -181,7 +182,9 @@ def _descended(
         found = margins(np.concatenate([x[:, None], inside[:, None] + steps], axis=1))
         if found[0] < best[1]:
             best = x.copy(), float(found[0])
-        return float(found[0]), (found[1 : d + 1] - found[d + 1 :]) / (2 * STEP)
+        with np.errstate(invalid="ignore"):  # where a floor is missed, a margin is minus infinity
+            slope = np.nan_to_num((found[1 : d + 1] - found[d + 1 :]) / (2 * STEP), posinf=0.0, neginf=0.0)
+        return float(np.maximum(found[0], LOWEST)), slope
 
     if d == 0:
         return start, float(margins(start[:, None])[0])
