@@ -56,14 +56,15 @@ def conditions_told(conditions: ConditionSet, p: Mapping[str, Any] | None = None
     if conditions.is_one:
         if p is not None and "lambda" not in values:
             values = {"lambda": [p["lambda"]], **values}
-        texts = [change_text(name, *each) for name, each in values.items() if name != "speed"]
+        texts = {name: change_text(name, *each) for name, each in values.items()}
         creep = [] if CREEP_FACTOR.key in values or set(CREEP) & values.keys() else ["creep as given"]
-        return "one condition only: " + ", ".join([*texts, *creep, change_text("speed", *values["speed"])])
-    texts = [change_text(name, *each) for name, each in values.items()]
+        speed = [texts.pop("speed")] if "speed" in texts else []
+        return "one condition only: " + ", ".join([*texts.values(), *creep, *speed])
+    each_of = "; ".join(change_text(name, *each) for name, each in values.items())
     if not conditions.ranges:
-        return f"all {len(conditions.lists)} conditions ({'; '.join(texts)})"
+        return f"all {len(conditions.lists)} conditions ({each_of})"
     ranges = ", ".join(range_text(name, ends) for name, ends in conditions.ranges)
-    beside = f", each with {'; '.join(texts)}" if texts else ""
+    beside = f", each with {each_of}" if each_of else ""
     return f"every condition that a search found in {ranges}{beside} (no proof)"
 
 
