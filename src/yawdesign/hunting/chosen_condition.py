@@ -8,17 +8,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from yawdesign.hunting.many.measure import Measure
+from yawdesign.hunting.all_conditions import Judged
 from yawdesign.hunting.verdict import given_damping
-from yawdesign.hunting.worst_condition import worst_conditions
 from yawdesign.problem import PARAMETERS, Problem, ProblemError, Written, exact
 from yawdesign.problem.condition import CREEP_FACTOR, MOST_TOLERANCE, TOLERANCE, Condition, Conditions, Load
 from yawdesign.problem.condition_texts import change_text
-from yawdesign.problem.conditions import condition_set
 from yawdesign.problem.diagnostics import Mistakes, suggestion, unknown_key
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_quantity, key_of, shown
-from yawdesign.vehicle.vehicle import Model
 
 AS_WRITTEN, WORST, GIVEN = "as written", "worst", "given"
 VALUES = "values"  # the key in a result's `condition` that says which of them it is
@@ -112,14 +109,9 @@ def chosen(problem: Problem, condition: Asked = AS_WRITTEN, speeds: Sequence[flo
 def worst_of(problem: Problem) -> Condition:
     """Return the condition of the least margin of a problem's vehicle as it is written. As in `chosen`."""
     given_damping(problem)
-    every = condition_set(problem)
-    if every.is_one:
-        return every.lists[0]
-    model, p = Model.of(problem), {name: float(value) for name, value in problem.parameters().items()}
-    worst = worst_conditions(model, p, every, Measure("decay_rate", model.parameters))[0]
-    if worst.margin > 0:
-        worst = worst_conditions(model, p, every, Measure(problem.design.objective, tuple(problem.design.variables)))[0]
-    return worst.condition
+    judged = Judged(problem, {name: float(value) for name, value in problem.parameters().items()})
+    worst = judged.worst_condition
+    return judged.least(problem.design.objective)[1] if judged.looked[worst].stable else worst
 
 
 def _with(problem: Problem, condition: Condition, values: str, speeds: Sequence[float]) -> Chosen:

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.hunting.chosen_condition import AS_WRITTEN, Asked, chosen
 from yawdesign.hunting.eigenvalues import EXACT, backward_error, folded_matrix
-from yawdesign.hunting.stability import stability
-from yawdesign.hunting.verdict import given_damping
+from yawdesign.hunting.verdict import given_damping, least_stable
 from yawdesign.problem import PARAMETERS, Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result
@@ -241,7 +240,7 @@ def _home(problem: Problem, vehicle: Vehicle, name: str, values: Float, matrices
 
     Where the problem has none, or there has a damper less than along the axis, it is the least one of the axis.
     """
-    own = stability(problem).speed if name == "v" else vehicle.p.get(name)
+    own = least_stable(problem)[1].speed if name == "v" else vehicle.p.get(name)
     if own is None or len(matrices(float(own))) != len(matrices(float(values[0]))):
         return float(values.min())
     return float(own)
