@@ -2,8 +2,8 @@
 
 from yawdesign.damper.forward import ForwardDesign as ForwardDesign
 from yawdesign.damper.forward import design as design
-from yawdesign.damper.optimise import Optimum as Optimum
 from yawdesign.damper.optimise import optimise as optimise
+from yawdesign.damper.optimum import Optimum as Optimum
 from yawdesign.exports.fmu.archive import Fmu as Fmu
 from yawdesign.exports.fmu.archive import write_fmu as write_fmu
 from yawdesign.exports.functions import functions as functions
@@ -11,8 +11,10 @@ from yawdesign.exports.state_space import StateSpaceModel as StateSpaceModel
 from yawdesign.exports.state_space import state_space as state_space
 from yawdesign.exports.write import Export as Export
 from yawdesign.exports.write import export as export
+from yawdesign.hunting.critical_speed import CriticalSpeeds as CriticalSpeeds
+from yawdesign.hunting.critical_speed import critical_speed as critical_speed
+from yawdesign.hunting.stability import stability as stability
 from yawdesign.hunting.verdict import Stability as Stability
-from yawdesign.hunting.verdict import stability as stability
 from yawdesign.output.animation import animate as animate
 from yawdesign.output.plots import plot as plot
 from yawdesign.problem import PARAMETERS as PARAMETERS

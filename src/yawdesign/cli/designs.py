@@ -5,7 +5,17 @@ from typing import Annotated
 
 import typer
 
-from yawdesign.cli.answering import AsJson, ProblemFile, ended, mistakes_told, progress_shown, read_problem, show
+from yawdesign.cli.answering import (
+    AsJson,
+    Dask,
+    Jobs,
+    ProblemFile,
+    ended,
+    mistakes_told,
+    progress_shown,
+    read_problem,
+    show,
+)
 
 
 def stability(file: ProblemFile, as_json: AsJson = False) -> None:
@@ -32,13 +42,16 @@ def optimise(
     seed: Annotated[
         int, typer.Option(min=0, help="Of the search points; with more than three variables try a few.")
     ] = 0,
+    jobs: Jobs = 1,
+    dask: Dask = None,
 ) -> None:
     """Find the C_s, K_m and C_m (or other variables) of largest stability margin that the curve allows."""
     with mistakes_told():
         problem = read_problem(file)
-        with progress_shown() as progress:
-            from yawdesign.damper.optimise import optimise as best
+        from yawdesign.damper.optimise import optimise as best
+        from yawdesign.study.executors import workers
 
-            result = best(problem, seed=seed, progress=progress)
+        with workers(jobs, dask) as executor, progress_shown() as progress:
+            result = best(problem, seed=seed, executor=executor, progress=progress)
         show(result, as_json)
     raise ended(checked=result.status != "unverified", feasible=result.status == "optimal")

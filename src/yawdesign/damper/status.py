@@ -89,6 +89,11 @@ class Status(StrEnum):
         "no design within the bounds keeps the curve's limit",
         "lower C_s or its bounds, allow a larger radius or limit, or let other parameters vary",
     )
+    REQUIREMENTS_MISSED = (
+        "infeasible",
+        "no design within the bounds meets all requirements",
+        "see what is enough to change",
+    )
     UNVERIFIED_OPTIMUM = (
         "unverified",
         "eigenvalues and Routh's array differ",

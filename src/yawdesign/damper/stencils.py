@@ -11,6 +11,7 @@ import numpy as np
 from yawdesign.hunting.arrays import Bools, Float, Index
 from yawdesign.problem.arguments import Progress
 
+LEAST = 1e-10  # gain that counts, relative: below it verdicts and values differ by rounding
 MOST_TRIES = 12  # looks at a stencil: half of its points are better than any one, but for rounding near an optimum
 
 
@@ -74,7 +75,8 @@ def _best_of(landscape: Landscape, trial: Float, level: Float, tries: int) -> tu
     x, owner = trial.reshape(d, -1), np.repeat(np.arange(n), m)
     best, margin = trial[:, :, 0].copy(), level.copy()
     for _ in range(tries):
-        beats = landscape.beats_at(x, margin[owner])
+        level = margin[owner]
+        beats = landscape.beats_at(x, level + LEAST * np.abs(level))
         x, owner = x[:, beats], owner[beats]
         if not len(owner):
             break

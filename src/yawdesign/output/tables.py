@@ -2,7 +2,6 @@
 
 import io
 from collections.abc import Iterable
-from dataclasses import replace
 from math import pi
 from typing import TYPE_CHECKING, Any
 
@@ -14,13 +13,12 @@ from yawdesign.problem import PARAMETERS, format_quantity
 
 if TYPE_CHECKING:
     from yawdesign.damper.forward import ForwardDesign
-    from yawdesign.damper.optimise import Optimum, SingleOptimum
     from yawdesign.damper.single_bogie import Parting, SingleBogie
     from yawdesign.exports.write import Export
     from yawdesign.hunting.verdict import CaseVerdict, Mode, Stability
 
 DAMPING = "kN·s/m"
-SHOWN, SHOWN_CAPPING = 10, 5  # sensitivities
+SHOWN = 10  # sensitivities
 
 
 def titled(title: str, *columns: str) -> Table:
@@ -56,7 +54,7 @@ def facts(title: str, rows: Iterable[tuple[str, str]]) -> Table:
     return table
 
 
-def _modes(modes: Iterable["Mode"]) -> Table:
+def modes_table(modes: Iterable["Mode"]) -> Table:
     table = titled("Modes, least damped first", "frequency [Hz]", "damping ratio [%]", "decay rate [1/s]")
     for mode in modes:
         frequency = f"{mode.frequency:.3f}" if mode.frequency else "no oscillation"
@@ -84,7 +82,7 @@ def stability_tables(result: "Stability") -> RenderableType:
         ],
     )
     first = Text("The bogie is " if result.scope else "The vehicle is ").append_text(verdict).append(".")
-    return Group(first, *scope_lines(result.scope), summary, *case_tables(result.cases), _modes(result.modes))
+    return Group(first, *scope_lines(result.scope), summary, *case_tables(result.cases), modes_table(result.modes))
 
 
 def scope_lines(scope: str) -> list[Text]:
@@ -170,70 +168,6 @@ def _sensitivities(result: "ForwardDesign") -> list[Table]:
         meaning = PARAMETERS[name].meaning if name in PARAMETERS else "running speed"
         table.add_row(name, f"{value:+.2f}", Text(meaning, justify="left"))
     return [table]
-
-
-def optimum_tables(result: "Optimum") -> RenderableType:
-    """Return the tables of an `Optimum`."""
-    if result.margin is None:
-        return Text(f"{result.status}: {result.message}")
-    own = [_optimum_facts(result), _bounds(result), *case_tables(result.cases), _modes(result.modes), _fixed(result)]
-    return Group(*scope_lines(result.forward.scope), *own, design_tables(replace(result.forward, scope="")))
-
-
-def _optimum_facts(result: "Optimum") -> Table:
-    name = {"decay_rate": "least decay rate", "damping_ratio": "least damping ratio"}[result.objective]
-    rows = [
-        (f"{name}, before", margin(result.margin_before, result.objective)),
-        (f"{name}, optimum", margin(result.margin, result.objective)),
-        ("the same by Routh's array", margin(result.margin_polynomial, result.objective)),
-        ("Hurwitz minors all positive", "yes" if result.hurwitz_positive else "no"),
-        ("active limits", ", ".join(result.active) or "none: the optimum is inside its bounds"),
-        ("answer", f"{result.status}: {result.message}"),
-    ]
-    if result.capped_by is not None:
-        most = list(result.capping_sensitivity.items())[:SHOWN_CAPPING]
-        rows[2:2] = [
-            ("capped by, since the variables hardly move it", result.capped_by),
-            (f"{name} of all other modes", margin(result.next_margin, result.objective)),
-            (
-                "what moves the capping mode most",
-                ", ".join(f"{key} {value:+.2g}" for key, value in most) + " (% for 1 %)",
-            ),
-        ]
-    if result.rotational_resistance is not None:
-        rows.append(("rotational resistance T/(4Qa)", f"{result.rotational_resistance:.5f}"))
-    if result.single_bogie is not None:
-        rows += _single_rows(result, result.single_bogie)
-    return facts("Optimum", rows)
-
-
-def _single_rows(result: "Optimum", alone: "SingleOptimum") -> list[tuple[str, str]]:
-    """Return what a single bogie would have answered, and what that is worth under the car body."""
-    found = ((name, alone.optimum[name]) for name in result.bounds)
-    values = [f"{name} = {format_quantity(x, PARAMETERS[name].unit)}" for name, x in found if x is not None]
-    still, moving = (margin(x, result.objective) for x in (alone.margin, alone.margin_with_car_body))
-    worth = f"{still}; with the car body {moving}" + ("" if alone.stable else ", UNSTABLE")
-    return [("one bogie under a car body standing still", ", ".join(values) or "no design"), ("its margin", worth)]
-
-
-def _bounds(result: "Optimum") -> Table:
-    table = titled("Design variables", "variable", "before", "optimum", "min", "max", "place between the bounds")
-    for name, bound in result.bounds.items():
-        unit = PARAMETERS[name].unit
-        before = result.before[name]
-        shown = "not given" if before is None else format_quantity(before, unit)
-        cells = [format_quantity(value, unit) for value in (bound.value, bound.min, bound.max)]
-        table.add_row(name, shown, *cells, f"{100 * bound.position:.1f} %")
-    return table
-
-
-def _fixed(result: "Optimum") -> Table:
-    table = titled("Modes that no design variable moves", "motion", "decay rate [1/s]", "frequency [Hz]")
-    for name, roots in result.fixed_modes.items():
-        for s in roots:
-            if s.imag >= 0:
-                table.add_row(name, f"{-s.real:.4f}", f"{s.imag / (2 * pi):.3f}")
-    return table
 
 
 def export_tables(result: "Export") -> RenderableType:

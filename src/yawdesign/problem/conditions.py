@@ -50,6 +50,18 @@ class ConditionSet:
             ends["v"] = SpeedRange(min=low, max=high, steps=self.steps).values
         return self._with(ends)
 
+    def grid(self, most: int, each: int = 9) -> tuple[Condition, ...]:
+        """Return the corners and conditions between them: `each` values of every range, of the speed its `steps`.
+
+        Fewer of each where that would make more than `most` conditions, down to the corners.
+        """
+        counts = {name: self.steps if name == "v" else each for name, _ in self.ranges}
+        while len(self.lists) * prod(counts.values()) > most and max(counts.values()) > 2:
+            largest = max(counts, key=lambda name: counts[name])
+            counts[largest] -= 1
+        ends = dict(self.ranges)
+        return self._with({name: _spaced(*ends[name], n) for name, n in counts.items()})
+
     def _with(self, values: Mapping[str, tuple[float, ...]]) -> tuple[Condition, ...]:
         combinations = [dict(zip(values, each, strict=True)) for each in product(*values.values())]
         return tuple(_speed_first(each.with_values(more)) for each in self.lists for more in combinations)
@@ -74,6 +86,11 @@ class ConditionSet:
     def is_one(self) -> bool:
         """Whether there is no other condition than one."""
         return len(self.lists) == 1 and not self.ranges
+
+
+def _spaced(low: float, high: float, n: int) -> tuple[float, ...]:
+    """Return values between two ends, both included."""
+    return (low, *(low + (high - low) * k / (n - 1) for k in range(1, n - 1)), high)
 
 
 def _speed_first(condition: Condition) -> Condition:

@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from yawdesign.problem import Problem, ProblemError
-from yawdesign.problem.arguments import Progress
+from yawdesign.problem.arguments import Progress, as_executor
 from yawdesign.problem.running import SpeedRange
 from yawdesign.problem.stopping import held, request_to_stop
 from yawdesign.study.axes import Axis
-from yawdesign.study.executors import as_executor, fill
+from yawdesign.study.executors import fill
 from yawdesign.study.kept_file import KeptFile
 from yawdesign.study.request import Request, request
 from yawdesign.study.result import Sweep, gathered

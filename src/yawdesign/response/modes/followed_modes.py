@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.hunting.arrays import Complex, Float
-from yawdesign.hunting.eigenvalues import backward_error, folded_matrix
-from yawdesign.hunting.verdict import EXACT, given_damping, stability
+from yawdesign.hunting.eigenvalues import EXACT, backward_error, folded_matrix
+from yawdesign.hunting.stability import stability
+from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import PARAMETERS, Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result

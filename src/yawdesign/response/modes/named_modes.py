@@ -8,8 +8,8 @@ import numpy as np
 import scipy.linalg as sl
 
 from yawdesign.hunting.arrays import Complex, Float
-from yawdesign.hunting.eigenvalues import backward_error, folded_matrix
-from yawdesign.hunting.verdict import EXACT, Mode, least_stable
+from yawdesign.hunting.eigenvalues import EXACT, backward_error, folded_matrix
+from yawdesign.hunting.verdict import Mode, least_stable
 from yawdesign.problem import Problem
 from yawdesign.problem.result import Result
 from yawdesign.response.modes.eigenvectors import unfold, whole_vector
