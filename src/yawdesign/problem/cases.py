@@ -161,7 +161,7 @@ def _key(written: str, others: Mapping[str, object]) -> tuple[str, Parameter]:
 
 def _change(key: str, row: Parameter, value: object) -> Change:
     """Return one change, its value checked as far as that is possible without the value as designed."""
-    share = value.share if isinstance(value, Change) else isinstance(value, str) and _is_percentage(value)
+    share = value.share if isinstance(value, Change) else is_percentage(value)
     given = value.value if isinstance(value, Change) else value
     if not share:
         return Change(key, row.check(given))
@@ -171,9 +171,10 @@ def _change(key: str, row: Parameter, value: object) -> Change:
     return Change(key, number, share=True)
 
 
-def _is_percentage(text: str) -> bool:
+def is_percentage(value: object) -> bool:
+    """Return whether a value is written as a percentage."""
     try:
-        return split_quantity(text)[1] == "%"
+        return isinstance(value, str) and split_quantity(value)[1] == "%"
     except ProblemError:
         return False  # no quantity at all: the row of the table says so
 

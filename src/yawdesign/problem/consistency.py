@@ -7,8 +7,10 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from .cases import Case, outside
 from .condition import CREEP, CREEP_FACTOR, MOST_LISTED, Conditions, Load
 from .diagnostics import Diagnostic, unknown_key
+from .distributions import Distribution, unfit
 from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, NO_ROLL, PARAMETERS, ROLL_NEEDS_IT, VERTICAL
 from .requirements import Requirement, without_cases
+from .running import SPEED
 from .table import RIGID, Parameter
 
 GRAVITY = 9.80665  # [m/s^2], the standard acceleration of free fall
@@ -21,12 +23,14 @@ def misfits(
     equations: object,
     bogie: Values,
     car_body: Values | None,
-    speeds: int,
+    speed_count: int,
     curve: bool,
     variables: Iterable[str],
     cases: Collection[Case],
     conditions: Conditions,
     requirements: tuple[Requirement, ...],
+    uncertainty: Collection[Distribution] = (),
+    speeds: Collection[float] = (),
 ) -> Iterator[Diagnostic]:
     """Yield what does not fit together, by dotted names.
 
@@ -36,7 +40,7 @@ def misfits(
         Of the bogie, and of the problem.
     bogie, car_body : mapping of str to float or None
         What is given of each, in SI; no car body: it stands still.
-    speeds : int
+    speed_count : int
         How many speeds are looked at first.
     curve : bool
         Whether there is a curve.
@@ -48,6 +52,10 @@ def misfits(
         Under which everything must hold.
     requirements : tuple of Requirement
         What must be reached.
+    uncertainty : collection of Distribution
+        Of parameters.
+    speeds : collection of float
+        The speeds [m/s]; none where they are not known.
     """
     variables = tuple(variables)
     yield from _vertical_suspension(bogie, car_body)
@@ -70,8 +78,9 @@ def misfits(
             yield Diagnostic(key=f"cases.{found.key}", message=found.message)
     yield from _of_conditions(conditions, kind, given, variables)
     yield from _reached(conditions, given)
-    yield from _size(conditions, speeds)
+    yield from _size(conditions, speed_count)
     yield from without_cases(requirements, cases)
+    yield from _of_uncertainty(uncertainty, kind, given, speeds, conditions)
 
 
 def _of_conditions(
@@ -125,11 +134,25 @@ def _outside(row: Parameter, values: Collection[float]) -> str:
     return f"makes {row.key} {row.range_text((low, high), row.unit)}, outside {row.range_text(row.hard, row.unit)}"
 
 
-def _size(conditions: Conditions, speeds: int) -> Iterator[Diagnostic]:
-    size = conditions.combinations * speeds
+def _size(conditions: Conditions, speed_count: int) -> Iterator[Diagnostic]:
+    size = conditions.combinations * speed_count
     if conditions and size > MOST_LISTED:
         text = f"every combination of lists, loads, ends of ranges and speeds makes {size}: at most {MOST_LISTED}"
         yield Diagnostic(key="conditions", message=text, at_key=True)
+
+
+def _of_uncertainty(
+    distributions: Collection[Distribution],
+    kind: str,
+    given: Values,
+    speeds: Collection[float],
+    conditions: Conditions,
+) -> Iterator[Diagnostic]:
+    known = (*present(given), CREEP_FACTOR.key, SPEED.key)
+    for each in distributions:
+        if each.name not in known:
+            yield Diagnostic(key=f"uncertainty.{each.name}", message=why_absent(each.name, kind, given, known))
+    yield from unfit([each for each in distributions if each.name in known], given, speeds, conditions)
 
 
 def _vertical_suspension(bogie: Values, car_body: Values | None) -> Iterator[Diagnostic]:

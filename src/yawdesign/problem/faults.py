@@ -14,6 +14,7 @@ from .condition import Conditions
 from .consistency import Values, misfits
 from .creep import CREEP, MADE
 from .diagnostics import Diagnostic, ProblemError, nearest, suggestion
+from .distributions import read_distributions
 from .document import Path
 from .file_shape import SWITCHES
 from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, bogie_keys, incomplete, parameter_keys
@@ -25,7 +26,10 @@ from .written_conditions import OWN_KEYS, read_conditions
 
 _NO_ROBUST = "is not a known key: what must hold stands under conditions, such as lambda: [0.05, 0.40]"
 _TAGS = ("<range>", "<value>")
-_TOP = ("title", "equations", "bogie", "car_body", "speed", "curve", "conditions", "cases", "requirements", "design")
+_TOP = (
+    *("title", "equations", "bogie", "car_body", "speed", "curve", "conditions", "cases", "requirements", "design"),
+    "uncertainty",
+)
 _ROWS: Mapping[str, Mapping[str, Parameter]] = {"bogie": BOGIE, "car_body": CAR_BODY, "curve": CURVE}
 
 
@@ -64,12 +68,13 @@ def disagreements(data: Mapping[str, Any], kind: str) -> Iterator[Fault]:
         equations=data.get("equations"),
         bogie=bogie,
         car_body=car_body,
-        speeds=len(data["speed"]) if isinstance(data.get("speed"), list) else 1,
+        speed_count=len(data["speed"]) if isinstance(data.get("speed"), list) else 1,
         curve="curve" in data,
         variables=[key for key in known if isinstance(variables, Mapping) and key in variables],
         cases=cases,
         conditions=read_conditions(data["conditions"])[0] if "conditions" in data else Conditions(),
         requirements=read_requirements(data["requirements"])[0] if "requirements" in data else (),
+        uncertainty=read_distributions(data["uncertainty"])[0] if "uncertainty" in data else (),
     )
     yield from placed(data, chain(incomplete(bogie), found))
 
@@ -193,7 +198,7 @@ def _allowed(around: Path, kind: str) -> tuple[str, ...]:
         case ("speed",):
             return ("min", "max", "steps")
         case ("design",):
-            return ("objective", "variables")
+            return ("objective", "variables", "catalogue")
         case ("design", "variables"):
             return tuple(dict.fromkeys((*bogie_keys(kind), *CAR_BODY)))
         case _:

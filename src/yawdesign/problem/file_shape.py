@@ -25,7 +25,9 @@ from pydantic import create_model as make
 from .cases import as_cases
 from .condition import Conditions
 from .creep import CREEP, MADE, creep_coefficients
+from .damper_catalogue import as_catalogue, catalogue_schema
 from .diagnostics import Mistakes, ProblemError
+from .distributions import as_distributions
 from .parameters import BOGIE, CAR_BODY, KINDS, PARAMETERS, Bogie, CarBody, bogie_keys
 from .patterns import unit_pattern
 from .problem import EQUATIONS, Problem
@@ -166,7 +168,11 @@ def _design_model(kind: str) -> type[BaseModel]:
     return _model(
         "Design",
         "What may be changed, and what is to be best.",
-        {"objective": (objective, None), "variables": (some, None)},
+        {
+            "objective": (objective, None),
+            "variables": (some, None),
+            "catalogue": (_leaf(as_catalogue, catalogue_schema()), None),
+        },
     )
 
 
@@ -205,6 +211,7 @@ def problem_model(
             "cases": (_leaf(as_cases, {"description": "Faults that must be survived, by name."}), None),
             "requirements": (_leaf(as_requirements, {"description": "What must be reached."}), None),
             "design": (_design_model(kind), None),
+            "uncertainty": (_leaf(as_distributions, {"description": "Distributions of parameters."}), None),
         },
     )
 
@@ -223,6 +230,7 @@ def build(model: BaseModel) -> Problem:
         cases=data.get("cases", ()),
         conditions=data.get("conditions", Conditions()),
         requirements=data.get("requirements", ()),
+        uncertainty=data.get("uncertainty", ()),
         design=_design(data.get("design", {})),
     )
 
@@ -249,4 +257,5 @@ def _made(bogie: dict[str, Any]) -> dict[str, Any]:
 
 def _design(data: dict[str, Any]) -> Design:
     variables = {key: Variable(**bounds) for key, bounds in data.get("variables", {}).items()}
-    return Design(objective=data.get("objective", "decay_rate"), variables=variables)
+    catalogue = data.get("catalogue", ())
+    return Design(objective=data.get("objective", "decay_rate"), variables=variables, catalogue=catalogue)

@@ -8,9 +8,11 @@ from typing import Any, Literal, Self, get_args
 
 from .arguments import named
 from .cases import Case, as_cases
-from .condition import Conditions
+from .condition import CREEP_FACTOR, Conditions
 from .consistency import misfits, present, why_absent
 from .diagnostics import Mistakes, ProblemError
+from .distributions import Distribution, as_distributions
+from .distributions import written as written_distributions
 from .parameters import CAR_BODY, VERTICAL, Bogie, CarBody, bogie_keys, given_of
 from .quantities import Written, exact
 from .requirements import Requirement, as_requirements
@@ -55,6 +57,9 @@ class Problem:
     requirements : tuple of Requirement
         What must be reached under all conditions; they may be given as a problem file has them,
         ``{"damping_ratio": "5 %", "critical_speed": "330 km/h"}``.
+    uncertainty : tuple of Distribution
+        Of parameters, the creep factor or the speed; they may be given as a problem file has them, ``{"lambda":
+        {"uniform": [0.05, 0.4]}, "K_m": {"lognormal": "10 %"}}``.
     """
 
     bogie: Bogie
@@ -67,6 +72,7 @@ class Problem:
     cases: tuple[Case, ...] = ()
     conditions: Conditions = field(default_factory=Conditions)
     requirements: tuple[Requirement, ...] = ()
+    uncertainty: tuple[Distribution, ...] = ()
 
     def __post_init__(self) -> None:
         mistakes = Mistakes()
@@ -85,6 +91,8 @@ class Problem:
             object.__setattr__(self, "conditions", as_conditions(self.conditions))
         with mistakes.under("requirements"):
             object.__setattr__(self, "requirements", as_requirements(self.requirements, Parameter.accept))
+        with mistakes.under("uncertainty"):
+            object.__setattr__(self, "uncertainty", as_distributions(self.uncertainty))
         mistakes.report()
         if not self.design.variables:
             design = replace(self.design, variables=default_variables(self.bogie.kind))
@@ -99,12 +107,14 @@ class Problem:
                 equations=self.equations,
                 bogie=given_of(self.bogie),
                 car_body=given_of(self.car_body) if self.car_body else None,
-                speeds=self._speed_count,
+                speed_count=self._speed_count,
                 curve=self.curve is not None,
                 variables=self.design.variables,
                 cases=self.cases,
                 conditions=self.conditions,
                 requirements=self.requirements,
+                uncertainty=self.uncertainty,
+                speeds=self.speeds,
             )
         )
         if found:
@@ -145,6 +155,7 @@ class Problem:
             cases=cases,
             conditions=self.conditions.of(keys),
             requirements=requirements,
+            uncertainty=tuple(x for x in self.uncertainty if x.name in (*keys, CREEP_FACTOR.key, SPEED.key)),
             design=design,
         )
 
@@ -231,6 +242,10 @@ class Problem:
         plain["cases"] = {case.name: {change.key: change.written for change in case.changes} for case in self.cases}
         plain["conditions"] = self.conditions.written
         plain["requirements"] = written_requirements(self.requirements)
+        catalogue = plain["design"].pop("catalogue")
+        if catalogue:
+            plain["design"]["catalogue"] = [damper.written for damper in self.design.catalogue]
+        plain["uncertainty"] = written_distributions(self.uncertainty)
         return plain
 
 

@@ -7,6 +7,7 @@ from typing import Any
 from .cases import BOGIES
 from .condition import CREEP_FACTOR
 from .creep import MADE
+from .distributions import MOST_LOGNORMAL, MOST_NORMAL
 from .file_shape import problem_model, quantity_schema
 from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, PARAMETERS, ROLL_KEYS, VERTICAL, parameter_keys
 from .requirements import MEASURES
@@ -61,6 +62,7 @@ def schema() -> dict[str, Any]:
     body = found["$defs"]["CarBody"]
     body["allOf"] = [{"if": _PRESET, "else": {"required": body.pop("required")}}]
     found["properties"]["cases"] |= _cases()
+    found["properties"]["uncertainty"] |= _uncertainty()
     found["$defs"]["share"] = _SHARE
     found["allOf"] = [_trailer_rule(), _car_body_rule(), _cases_rule()]
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **found, "title": "yawdesign problem"}
@@ -179,6 +181,18 @@ def _cases_rule() -> dict[str, Any]:
     wanted = {"requirements": {"required": ["cases"]}}
     some = {"required": ["cases"], "properties": {"cases": {"minProperties": 1}}}
     return {"if": {"required": ["requirements"], "properties": wanted}, "then": some}
+
+
+def _uncertainty() -> dict[str, Any]:
+    """Return what distributions may be; what the ends of a uniform one measure is only checked by reading the file."""
+    end = {"anyOf": [{"type": "number"}, {"type": "string"}]}
+    kinds: dict[str, Any] = {"uniform": {"type": "array", "minItems": 2, "maxItems": 2, "items": end}}
+    for kind, most in (("normal", MOST_NORMAL), ("lognormal", MOST_LOGNORMAL)):
+        number = {"type": "number", "exclusiveMinimum": 0, "maximum": most}
+        kinds[kind] = {"anyOf": [{"$ref": "#/$defs/share"}, number]}
+    one = {"type": "object", "minProperties": 1, "maxProperties": 1, "additionalProperties": False, "properties": kinds}
+    names = [*dict.fromkeys((*BOGIE, *CAR_BODY)), CREEP_FACTOR.key, "speed"]
+    return {"type": "object", "propertyNames": {"enum": names}, "additionalProperties": one}
 
 
 def _trailer_rule() -> dict[str, Any]:

@@ -90,6 +90,12 @@ design:
   objective: decay_rate        # make the least decay rate [1/s] as large as possible, or the least damping_ratio [-]
   variables:                   # what may be changed; any parameter {of} may stand here
 {variables}
+  # catalogue: dampers.csv     # the yaw damper is one of these: `yawdesign choose` ranks them
+
+# How parameters are distributed, creep_factor and speed too, for `yawdesign uncertainty`:
+# uncertainty:
+#   lambda: {{uniform: [0.05, 0.40]}}
+#   K_m: {{lognormal: 10 %}}      # standard deviation as a share of the value; or normal: 10 %
 """
 
 
