@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
+from numbers import Real
 from typing import Any, Literal, Self, get_args
 
 from .arguments import named
@@ -17,7 +18,7 @@ from .parameters import CAR_BODY, VERTICAL, Bogie, CarBody, bogie_keys, given_of
 from .quantities import Written, exact
 from .requirements import Requirement, as_requirements
 from .requirements import written as written_requirements
-from .running import CURVE, SPEED, Curve, SpeedRange, as_speeds, computed_speed
+from .running import CURVE, SPEED, Curve, SpeedRange, as_speeds
 from .table import RIGID, Parameter, as_choice, as_text, field_name, key_of
 from .variables import Design, default_variables
 from .written_conditions import as_conditions
@@ -84,7 +85,7 @@ class Problem:
             with mistakes.under(name):
                 _instance(getattr(self, name), kind)
         with mistakes.under("" if isinstance(self.speed, Mapping) else "speed"):
-            object.__setattr__(self, "speed", _speed(self.speed, SPEED.accept))
+            object.__setattr__(self, "speed", _speed(self.speed))
         with mistakes.under("cases"):
             object.__setattr__(self, "cases", as_cases(self.cases))
         with mistakes.under("conditions"):
@@ -203,9 +204,9 @@ class Problem:
             with mistakes.under(key_of(name)):
                 parts[self._part_of(key_of(name))][field_name(key_of(name))] = value
         mine = parts.pop("own")
-        if "speed" in mine and not isinstance(mine["speed"], Mapping):
-            with mistakes.under("speed"):
-                mine["speed"] = _speed(mine["speed"], computed_speed)
+        with mistakes.under("speed"):
+            if isinstance(speed := mine.get("speed"), Real):  # a speed that was computed is hardly whole
+                mine["speed"] = SPEED.accept(speed, doubtful=SPEED.check(speed).exact.denominator == 1)
         for name, values in parts.items():
             with mistakes.under(name):
                 part = mine.get(name, getattr(self, name))
@@ -252,11 +253,11 @@ class Problem:
 _PARTS: Mapping[str, Any] = {"bogie": Bogie, "car_body": CarBody | None, "curve": Curve | None, "design": Design}
 
 
-def _speed(given: Any, check: Callable[[object], float]) -> float | tuple[float, ...] | SpeedRange:
+def _speed(given: Any) -> float | tuple[float, ...] | SpeedRange:
     """Return speeds as a problem holds them: a range may be given as a problem file has it."""
     if isinstance(given, SpeedRange):
         return given
-    return SpeedRange(**given) if isinstance(given, Mapping) else as_speeds(given, check)
+    return SpeedRange(**given) if isinstance(given, Mapping) else as_speeds(given, SPEED.accept)
 
 
 def _given(part: Bogie | CarBody) -> dict[str, Any]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from numbers import Real
 from typing import Any, Literal, get_args
 
 from .arguments import named
@@ -112,13 +111,6 @@ def as_speeds(value: Any, check: Callable[[object], float] = SPEED.check) -> flo
             found.add(speed)
     mistakes.report()
     return found.pop() if len(found) == 1 else tuple(sorted(found))
-
-
-def computed_speed(value: object) -> float:
-    """Return a speed [m/s] that Python code gives: one that was computed is hardly whole, others are doubted."""
-    whole = isinstance(value, Real) and SPEED.check(value).exact.denominator == 1
-    number: float = SPEED.accept(value, doubtful=whole)
-    return number
 
 
 @named
