@@ -17,14 +17,6 @@ from yawdesign.problem.cases import as_cases
 KMH = 1 / 3.6
 LISTS = {"lambda": [0.05, 0.10, 0.15, 0.25, 0.40], "creep_factor": [1.0, 0.7, 0.5]}
 RANGES = {"lambda": {"min": 0.05, "max": 0.40}, "creep_factor": {"min": 0.5, "max": 1.0}}
-# Unstable from 219.72 to 221.12 km/h, between two speeds that are looked at.
-NARROW = {
-    "M_b": 9039.58, "J_b": 9902.78, "M_w": 2217.15, "J_w": 2202.6, "M_m": 1617.43, "J_m": 1261.39, "W": 185130,
-    "K_1x": 49286400, "K_1y": 5213830, "K_2x": 931438, "K_2y": 675889, "K_m": 489176, "K_mphi": 333243,
-    "K_ds": 29312600, "K_dt": 33808300, "K_dm": 33011400, "C_t": 65410.1, "C_mphi": 16413.4, "C_m": 28991.4,
-    "a": 1.5399, "b": 0.91796, "a_0": 1.00365, "b_0": 0.420661, "b_1": 0.811462, "b_2": 1.27891, "b_3": 0.916541,
-    "r": 0.748269, "lambda_": 0.5, "f_11": 8008740, "f_22": 10645000, "C_s": 117280.942,
-}  # fmt: skip
 
 
 def problem(C_s, **more):
@@ -48,8 +40,8 @@ def test_the_critical_speed_at_the_critical_damping_is_the_speed():
     assert found.checked
 
 
-def test_all_speeds_of_one_condition():
-    given = replace(yd.table1(), bogie=replace(yd.table1().bogie, **NARROW))
+def test_all_speeds_of_one_condition(narrow_bogie):
+    given = yd.table1().replace(**narrow_bogie)
     found = yd.critical_speed(given)
     assert [x.becomes for x in found.critical_speeds] == ["unstable", "stable", "unstable"]
     assert [3.6 * x.v for x in found.critical_speeds[:2]] == pytest.approx([219.724254, 221.119203], abs=1e-5)
