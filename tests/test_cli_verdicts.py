@@ -1,4 +1,4 @@
-"""The commands stability and critical-speed: their first line, their JSON, and the exit code where something is missed."""
+"""The commands stability and critical-speed: first lines, JSON, and the exit code where something is missed."""
 
 import json
 
@@ -63,7 +63,9 @@ def test_the_first_line_says_under_which_conditions(run):
     one = run("stability", PLAIN, code=0)
     assert one.startswith("The bogie is stable under one condition only: lambda 0.15, creep as given, 300 km/h.")
     several = run("stability", PLAIN + LISTS, code=0)
-    assert several.startswith("The bogie is stable under all 4 conditions (300 km/h; lambda 0.05, 0.25; creep x 1, 0.5).")
+    assert several.startswith(
+        "The bogie is stable under all 4 conditions (300 km/h; lambda 0.05, 0.25; creep x 1, 0.5)."
+    )
     unstable = run("stability", PLAIN.replace("1300", "900") + LISTS, code=1)
     assert unstable.startswith("The bogie is UNSTABLE with lambda 0.25, creep x 0.5, 300 km/h. It was looked at under")
     ranges = PLAIN + "conditions: {lambda: {min: 0.1, max: 0.4}, tolerance: {K_m: 10 %}}"
