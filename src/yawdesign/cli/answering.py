@@ -22,6 +22,7 @@ DONE, NOTHING_FEASIBLE, BAD_INPUT, SOLVER_FAILED, STOPPED = 0, 1, 2, 3, 128  # 1
 # What makes the tables of which kind of result, as module and function.
 TABLES_BY = {
     "Stability": ("yawdesign.output.tables", "stability_tables"),
+    "CriticalSpeeds": ("yawdesign.output.critical_speed_tables", "critical_speed_tables"),
     "ForwardDesign": ("yawdesign.output.tables", "design_tables"),
     "Optimum": ("yawdesign.output.optimum_tables", "optimum_tables"),
     "Sweep": ("yawdesign.output.sweep_tables", "sweep_tables"),

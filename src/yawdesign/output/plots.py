@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 # What draws which kind of result, as module and function.
 DRAWN_BY: dict[str, tuple[str, str]] = {
     "Sweep": ("yawdesign.output.sweep_plots", "draw"),
+    "CriticalSpeeds": ("yawdesign.output.critical_speed_plots", "draw_critical_speeds"),
     "ForwardDesign": ("yawdesign.output.design_plots", "draw_design"),
     "Optimum": ("yawdesign.output.design_plots", "draw_optimum"),
     "DamperComponent": ("yawdesign.output.response_plots", "damper_component"),

@@ -2,23 +2,25 @@
 
 import io
 from collections.abc import Iterable
-from math import pi
+from math import inf, log, pi
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from yawdesign.output.condition_texts import condition_text
 from yawdesign.problem import PARAMETERS, format_quantity
+from yawdesign.problem.requirements import CASES
 
 if TYPE_CHECKING:
-    from yawdesign.damper.forward import ForwardDesign
+    from yawdesign.damper.forward import Critical, ForwardDesign
     from yawdesign.damper.single_bogie import Parting, SingleBogie
     from yawdesign.exports.write import Export
-    from yawdesign.hunting.verdict import CaseVerdict, Mode, Stability
+    from yawdesign.hunting.verdict import CaseVerdict, Mode, RequirementVerdict, Stability
 
 DAMPING = "kN·s/m"
-SHOWN = 10  # sensitivities
+SHOWN, SHOWN_CRITICAL = 10, 12  # sensitivities
 
 
 def titled(title: str, *columns: str) -> Table:
@@ -55,6 +57,7 @@ def facts(title: str, rows: Iterable[tuple[str, str]]) -> Table:
 
 
 def modes_table(modes: Iterable["Mode"]) -> Table:
+    """Return the table of the modes."""
     table = titled("Modes, least damped first", "frequency [Hz]", "damping ratio [%]", "decay rate [1/s]")
     for mode in modes:
         frequency = f"{mode.frequency:.3f}" if mode.frequency else "no oscillation"
@@ -69,20 +72,46 @@ def verified(checked: bool) -> str:
 
 def stability_tables(result: "Stability") -> RenderableType:
     """Return the tables of a `Stability`."""
-    verdict = Text("stable", "bold green") if result.stable else Text("UNSTABLE", "bold red")
-    if not result.checked:
-        verdict = Text("NOT VERIFIED: too close to the boundary, or too stiff, for double precision", "bold yellow")
     summary = facts(
-        f"Stability at {speed(result.speed)} with C_s = {damping(result.C_s)}",
+        f"With C_s = {damping(result.C_s)}",
         [
             ("spectral abscissa, all modes", f"{result.spectral_abscissa:.6g} 1/s"),
             ("decay rate, modes the design moves", margin(result.decay_rate, "decay_rate")),
             ("damping ratio, modes the design moves", margin(result.damping_ratio, "damping_ratio")),
+            ("worst condition", condition_text(result.worst_condition)),
             ("checked", verified(result.checked)),
         ],
     )
-    first = Text("The bogie is " if result.scope else "The vehicle is ").append_text(verdict).append(".")
-    return Group(first, *scope_lines(result.scope), summary, *case_tables(result.cases), modes_table(result.modes))
+    beside = [*requirement_tables(result.requirements), *case_tables(result.cases)]
+    return Group(_verdict(result), *scope_lines(result.scope), summary, *beside, modes_table(result.modes))
+
+
+def _verdict(result: "Stability") -> Text:
+    """Return the verdict and under which conditions it holds."""
+    verdict = Text("stable", "bold green") if result.stable else Text("UNSTABLE", "bold red")
+    if not result.checked:
+        verdict = Text("NOT VERIFIED: too close to the boundary, or too stiff, for double precision", "bold yellow")
+    at = "" if result.stable else f" with {condition_text(result.worst_condition)}. It was looked at"
+    first = Text("The bogie is " if result.scope else "The vehicle is ").append_text(verdict)
+    return first.append(f"{at} under {result.searched}.")
+
+
+def requirement_tables(requirements: "Iterable[RequirementVerdict]") -> list[Table]:
+    """Return the table of what is required and reached."""
+    table = titled("Requirements, under all conditions", "requirement", "at least", "reached", "met")
+    table.add_column("at", justify="left")
+    for each in requirements:
+        measure = each.name.removeprefix(CASES)
+        met = ("yes" if each.met else "NO") if each.checked else "not verified"
+        at = ", ".join([*([each.case] if each.case else []), condition_text(each.worst_condition)])
+        table.add_row(each.name, _reached(each.wanted, measure), _reached(each.reached, measure), met, at)
+    return [table] if table.row_count else []
+
+
+def _reached(value: float | None, measure: str) -> str:
+    if measure != "critical_speed":
+        return margin(value, measure)
+    return "beyond what was searched" if value is None else speed(value)
 
 
 def scope_lines(scope: str) -> list[Text]:
@@ -92,20 +121,22 @@ def scope_lines(scope: str) -> list[Text]:
 
 def case_tables(cases: "Iterable[CaseVerdict]") -> list[Table]:
     """Return the table of what happens with each fault."""
-    table = titled("Faults", "case", "stable", "decay rate [1/s]", "damping ratio [%]", "at")
+    table = titled("Faults", "case", "stable", "decay rate [1/s]", "damping ratio [%]")
+    table.add_column("at", justify="left")
     for case in cases:
         stable = ("yes" if case.stable else "NO") if case.checked else "not verified"
-        at = speed(case.worst_condition["speed"])
-        table.add_row(case.name, stable, f"{case.decay_rate:.4g}", f"{100 * case.damping_ratio:.2f}", at)
+        numbers = f"{case.decay_rate:.4g}", f"{100 * case.damping_ratio:.2f}"
+        table.add_row(case.name, stable, *numbers, condition_text(case.worst_condition))
     return [table] if table.row_count else []
 
 
 def design_tables(result: "ForwardDesign") -> RenderableType:
     """Return the tables of a `ForwardDesign`."""
+    first = Text(f"Forward design: {result.status}, under {result.searched}.", "bold")
     beside = [] if result.single_bogie is None else [_beside(result, result.single_bogie)]
-    return Group(
-        *scope_lines(result.scope), _design_facts(result), *beside, *_critical(result), *_sensitivities(result)
-    )
+    met = [*requirement_tables(result.requirements), *case_tables(result.cases)]
+    own = [_design_facts(result), *met, *beside, *_critical(result), *_sensitivities(result)]
+    return Group(first, *scope_lines(result.scope), *own)
 
 
 def _beside(result: "ForwardDesign", alone: "SingleBogie") -> RenderableType:
@@ -134,11 +165,14 @@ def _interval(low: float, high: float) -> str:
 
 
 def _design_facts(result: "ForwardDesign") -> Table:
-    stable = [("stable at every speed for C_s in", _interval(*i)) for i in result.stable_intervals]
+    many = len({tuple(x.condition.items()) for x in result.critical}) > 1
+    where = "stable under every condition for C_s in" if many else "stable for C_s in"
+    stable = [(where, _interval(*i)) for i in result.stable_intervals]
     load = {"axle": " (Q = W, the axle load)", "wheel": " (Q = W/2, the wheel load)", None: ""}[result.load]
     rows = [
-        *(stable or [("stable at every speed for C_s in", "none")]),
+        *(stable or [(where, "none")]),
         ("C_sl, lower end of the stable interval", damping(result.C_sl)),
+        *([("the condition that sets it", condition_text(result.worst_condition))] if result.worst_condition else []),
         (f"C_su, limit of the curve{load}", damping(result.C_su)),
         ("C_s, golden section", damping(result.C_s)),
         ("is that C_s stable", "yes" if result.stable else "no"),
@@ -152,11 +186,23 @@ def _design_facts(result: "ForwardDesign") -> Table:
 def _critical(result: "ForwardDesign") -> list[Table]:
     if not result.critical:
         return []
-    table = titled("Critical values", "C_s", "frequency [Hz]", "above it", "speed")
-    for x in result.critical:
+    shown = critical_shown(result)
+    some = "" if len(shown) == len(result.critical) else f": {len(shown)} of {len(result.critical)}"
+    table = titled(f"Critical values{some}", "C_s", "frequency [Hz]", "above it")
+    table.add_column("with", justify="left")
+    for x in shown:
         becomes = {"neither": "still unstable"}.get(x.becomes, x.becomes)
-        table.add_row(damping(x.C_s), f"{x.omega / (2 * pi):.4f}", becomes, speed(x.speed))
+        table.add_row(damping(x.C_s), f"{x.omega / (2 * pi):.4f}", becomes, condition_text(x.condition))
     return [table]
+
+
+def critical_shown(result: "ForwardDesign") -> list["Critical"]:
+    """Return the critical values that are shown: of many those nearest to the ends of the stable intervals."""
+    ends = [log(end) for interval in result.stable_intervals for end in interval if 0 < end < inf]
+    order = list(range(len(result.critical)))
+    if ends:
+        order.sort(key=lambda k: min(abs(log(result.critical[k].C_s) - end) for end in ends))
+    return [result.critical[k] for k in sorted(order[:SHOWN_CRITICAL])]
 
 
 def _sensitivities(result: "ForwardDesign") -> list[Table]:
