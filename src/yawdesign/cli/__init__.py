@@ -13,6 +13,7 @@ from yawdesign.cli.distributions import uncertainty
 from yawdesign.cli.files import check, export, new, schema
 from yawdesign.cli.responses import modes, simulate
 from yawdesign.cli.sweeps import sweep
+from yawdesign.cli.trade_offs import trade_off
 from yawdesign.output.streams import ANSWER, discard, open_streams, tell
 
 app = typer.Typer(
@@ -22,7 +23,7 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 COMMANDS = (
-    *(stability, critical_speed, design, optimise, choose, uncertainty),
+    *(stability, critical_speed, design, optimise, choose, trade_off, uncertainty),
     *(sweep, simulate, modes, export, new, check, schema),
 )
 for command in COMMANDS:

@@ -26,6 +26,7 @@ TABLES_BY = {
     "ForwardDesign": ("yawdesign.output.tables", "design_tables"),
     "Optimum": ("yawdesign.output.optimum_tables", "optimum_tables"),
     "Choice": ("yawdesign.output.choice_tables", "choice_tables"),
+    "TradeOff": ("yawdesign.output.trade_off_tables", "trade_off_tables"),
     "Sweep": ("yawdesign.output.sweep_tables", "sweep_tables"),
     "Uncertainty": ("yawdesign.output.uncertainty_tables", "uncertainty_tables"),
     "Simulation": ("yawdesign.output.response_tables", "simulation_tables"),

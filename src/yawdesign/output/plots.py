@@ -17,6 +17,7 @@ DRAWN_BY: dict[str, tuple[str, str]] = {
     "Uncertainty": ("yawdesign.output.uncertainty_plots", "draw_uncertainty"),
     "Optimum": ("yawdesign.output.design_plots", "draw_optimum"),
     "Choice": ("yawdesign.output.choice_plots", "draw_choice"),
+    "TradeOff": ("yawdesign.output.trade_off_plots", "draw_trade_off"),
     "DamperComponent": ("yawdesign.output.response_plots", "damper_component"),
     "FrequencyResponse": ("yawdesign.output.response_plots", "frequency_response"),
     "Simulation": ("yawdesign.output.response_plots", "simulation"),

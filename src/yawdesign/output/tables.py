@@ -9,6 +9,7 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from yawdesign.hunting.chosen_condition import condition_in_words
 from yawdesign.output.condition_texts import condition_text
 from yawdesign.problem import PARAMETERS, format_quantity
 from yawdesign.problem.requirements import CASES
@@ -219,7 +220,8 @@ def _sensitivities(result: "ForwardDesign") -> list[Table]:
 def export_tables(result: "Export") -> RenderableType:
     """Return the table of an `Export`."""
     rows = [("functions", ", ".join(result.functions)), ("files", ", ".join(result.files))]
-    return facts(f"Written to {result.folder}", [*rows, ("what they take and give", "manifest.json")])
+    rows += [("condition", condition_in_words(result.condition)), ("what they take and give", "manifest.json")]
+    return facts(f"Written to {result.folder}", rows)
 
 
 def rendered(table: RenderableType) -> str:

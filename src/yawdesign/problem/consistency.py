@@ -23,7 +23,7 @@ def misfits(
     equations: object,
     bogie: Values,
     car_body: Values | None,
-    speeds: int,
+    speed_count: int,
     curve: bool,
     variables: Iterable[str],
     cases: Collection[Case],
@@ -40,7 +40,7 @@ def misfits(
         Of the bogie, and of the problem.
     bogie, car_body : mapping of str to float or None
         What is given of each, in SI; no car body: it stands still.
-    speeds : int
+    speed_count : int
         How many speeds are looked at first.
     curve : bool
         Whether there is a curve.
@@ -78,7 +78,7 @@ def misfits(
             yield Diagnostic(key=f"cases.{found.key}", message=found.message)
     yield from _of_conditions(conditions, kind, given, variables)
     yield from _reached(conditions, given)
-    yield from _size(conditions, speeds)
+    yield from _size(conditions, speed_count)
     yield from without_cases(requirements, cases)
     yield from _of_uncertainty(uncertainty, kind, given, speeds, conditions)
 
@@ -134,8 +134,8 @@ def _outside(row: Parameter, values: Collection[float]) -> str:
     return f"makes {row.key} {row.range_text((low, high), row.unit)}, outside {row.range_text(row.hard, row.unit)}"
 
 
-def _size(conditions: Conditions, speeds: int) -> Iterator[Diagnostic]:
-    size = conditions.combinations * speeds
+def _size(conditions: Conditions, speed_count: int) -> Iterator[Diagnostic]:
+    size = conditions.combinations * speed_count
     if conditions and size > MOST_LISTED:
         text = f"every combination of lists, loads, ends of ranges and speeds makes {size}: at most {MOST_LISTED}"
         yield Diagnostic(key="conditions", message=text, at_key=True)

@@ -68,7 +68,7 @@ def disagreements(data: Mapping[str, Any], kind: str) -> Iterator[Fault]:
         equations=data.get("equations"),
         bogie=bogie,
         car_body=car_body,
-        speeds=len(data["speed"]) if isinstance(data.get("speed"), list) else 1,
+        speed_count=len(data["speed"]) if isinstance(data.get("speed"), list) else 1,
         curve="curve" in data,
         variables=[key for key in known if isinstance(variables, Mapping) and key in variables],
         cases=cases,

@@ -107,7 +107,7 @@ class Problem:
                 equations=self.equations,
                 bogie=given_of(self.bogie),
                 car_body=given_of(self.car_body) if self.car_body else None,
-                speeds=self._speed_count,
+                speed_count=self._speed_count,
                 curve=self.curve is not None,
                 variables=self.design.variables,
                 cases=self.cases,
