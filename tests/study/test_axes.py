@@ -203,7 +203,7 @@ def test_an_axis_replaces_the_condition_of_its_name():
 
 
 def test_the_other_conditions_stay():
-    several = yd.table1().replace(speed=[70.0, 80.0], conditions={"lambda": [0.1, 0.2]})
+    several = yd.table1().replace(speed=["70 m/s", "80 m/s"], conditions={"lambda": [0.1, 0.2]})
     assert conditions(of="C_sl", problem=several, v=[70, 80]) == [{"lambda": 0.1}, {"lambda": 0.2}]
     assert conditions(of="C_sl", problem=several, lambda_=[0.3, 0.4]) == [{"v": 70.0}, {"v": 80.0}]
     assert len(conditions(of="C_sl", problem=several, f_m=[1, 2])) == 4
@@ -212,7 +212,9 @@ def test_the_other_conditions_stay():
 def test_an_axis_replaces_all_that_is_said_of_what_it_sets():
     load = {"tare": {"W": 1e5, "M_b": 5e3}}
     several = {"K_m": [6e5, 7e5], "f_11": [1e6, 2e6], "tolerance": {"K_m": 0.1}, "load": load}
-    problem = yd.table1().replace(variables={"C_s": {"min": 1e4, "max": 1e7}}, conditions=several)
+    problem = yd.table1().replace(
+        design=yd.Design(variables={"C_s": yd.Variable(min=1e4, max=1e7)}), conditions=several
+    )
     found = asked(of="C_sl", problem=problem, f_m=[1, 2]).task.question.conditions
     assert {name for x in found for name in x.described} == {"speed", "f_11", "load"}
     found = asked(of="C_sl", problem=problem, creep_factor=[0.5, 1], M_b=[5e3, 6e3]).task.question.conditions
