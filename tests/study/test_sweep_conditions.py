@@ -24,8 +24,8 @@ def test_designs_under_conditions():
             assert result.columns[name][k] == pytest.approx(getattr(expected, name), rel=1e-8)
         assert result.columns["status"][k] == expected.status
     assert result.boundary is None  # each condition has critical values of its own
-    for text in ("lambda 0.05, 0.4", "creep x 0.5, 1", "load tare, laden", "C_s -15 ... +15 % (9 values)"):
-        assert text.replace("0.5, 1", "1, 0.5") in result.conditions
+    for text in ("lambda 0.05, 0.4", "creep x 1, 0.5", "load tare, laden", "C_s -15 ... +15 % (9 values)"):
+        assert text in result.conditions
     assert result.to_dict()["conditions"] == result.conditions
 
 
@@ -74,7 +74,7 @@ def test_a_curve_too_tight_for_any_damper():
 def test_files_and_pictures_of_a_curve_axis(tmp_path):
     result = yd.sweep(TABLE1, of="design", V_r="60 km/h:120 km/h:7")
     result.to_csv(tmp_path / "a.csv")
-    head, *rows = csv.reader(line for line in (tmp_path / "a.csv").open() if not line.startswith("#"))
+    head, *rows = csv.reader(x for x in (tmp_path / "a.csv").read_text().splitlines() if x[0] != "#")
     assert head[:2] == ["V_r [m/s]", "C_s [N s/m]"]
     assert [float(row[0]) for row in rows] == pytest.approx(np.linspace(60, 120, 7) / 3.6)
     result.to_npz(tmp_path / "a.npz")
