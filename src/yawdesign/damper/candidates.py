@@ -84,6 +84,8 @@ class Choice(Result):
         Which margin.
     limit : float or None
         Of the rotational resistance [-]; None without a curve.
+    searched : str
+        Under which conditions this holds, in words.
     notes : tuple of str
         What this answer does not hold.
     """
@@ -91,6 +93,7 @@ class Choice(Result):
     candidates: tuple[Candidate, ...]
     objective: str
     limit: float | None
+    searched: str
     notes: tuple[str, ...]
 
     @property
