@@ -6,6 +6,9 @@ from yawdesign.damper.forward import ForwardDesign as ForwardDesign
 from yawdesign.damper.forward import design as design
 from yawdesign.damper.optimise import optimise as optimise
 from yawdesign.damper.optimum import Optimum as Optimum
+from yawdesign.damper.pareto_front import TradeOff as TradeOff
+from yawdesign.damper.trade_off import IncompleteTradeOffError as IncompleteTradeOffError
+from yawdesign.damper.trade_off import trade_off as trade_off
 from yawdesign.exports.fmu.archive import Fmu as Fmu
 from yawdesign.exports.fmu.archive import write_fmu as write_fmu
 from yawdesign.exports.functions import functions as functions
@@ -61,5 +64,7 @@ from yawdesign.response.track.tracks import Sinusoid as Sinusoid
 from yawdesign.study.result import Sweep as Sweep
 from yawdesign.study.sweep import IncompleteSweepError as IncompleteSweepError
 from yawdesign.study.sweep import sweep as sweep
+from yawdesign.study.uncertainty import Uncertainty as Uncertainty
+from yawdesign.study.uncertainty import uncertainty as uncertainty
 
 __version__: str

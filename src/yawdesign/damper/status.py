@@ -99,6 +99,13 @@ class Status(StrEnum):
         "eigenvalues and Routh's array differ",
         "do not use this result; the parameters are too extreme for double precision",
     )
+    FRONT = "ok", "every point is the best design found with its rotational resistance"
+    NO_FRONT = (
+        "infeasible",
+        "no stable design within the bounds meets the requirements, up to twice the curve's limit",
+        "lower the requirements, widen the bounds or vary other parameters",
+    )
+    STOPPED = "incomplete", "not all points were looked for; each of these is finished"
 
     @property
     def message(self) -> str:

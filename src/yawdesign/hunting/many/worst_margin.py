@@ -124,7 +124,9 @@ def under_conditions(model: Model, p: Mapping[str, Any], ways: Sequence[tuple[Co
 
 
 def _end_to_end(columns: Sequence[tuple[Any, int]]) -> Any:
-    first, _ = columns[0]
-    if not np.ndim(first) and all(x is first for x, _ in columns):
-        return first
-    return np.concatenate([np.broadcast_to(x, size) for x, size in columns])
+    values, sizes = zip(*columns, strict=True)
+    if any(isinstance(x, np.ndarray) for x in values):
+        return np.concatenate([np.broadcast_to(x, size) for x, size in columns])
+    if all(x is values[0] for x in values):
+        return values[0]
+    return np.repeat(np.array(values, dtype=float), sizes)
