@@ -36,7 +36,9 @@ def main() -> None:
     rng = np.random.default_rng(0)
     catalogue = tuple(
         yd.CatalogueDamper(name=f"D{k}", damping=float(c), stiffness=float(s))
-        for k, (c, s) in enumerate(zip(np.geomspace(1e4, 3e6, asked.rows), rng.uniform(4e6, 40e6, asked.rows)))
+        for k, (c, s) in enumerate(
+            zip(np.geomspace(1e4, 3e6, asked.rows), rng.uniform(4e6, 40e6, asked.rows), strict=True)
+        )
     )
     for name, more in TASKS.items():
         problem = replace(yd.table1(), design=yd.Design(catalogue=catalogue), **more)

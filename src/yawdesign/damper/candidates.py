@@ -21,8 +21,8 @@ OK, UNVERIFIED, MISSES, UNSTABLE, EXCEEDS, OUTSIDE = (
 ORDER = (OK, UNVERIFIED, MISSES, UNSTABLE, EXCEEDS, OUTSIDE)
 
 
-@dataclass(frozen=True, repr=False)
-class Candidate(Result):
+@dataclass(frozen=True)
+class Candidate:
     """A damper of a catalogue and what it is worth.
 
     Parameters
