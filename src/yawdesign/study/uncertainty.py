@@ -166,19 +166,19 @@ def uncertainty(
     Examples
     --------
     >>> import yawdesign as yd
-    >>> problem = yd.table1(C_s="1 MN s/m", uncertainty={"lambda": {"uniform": [0.05, 0.4]}, "K_m": {"normal": "10 %"}})
-    >>> yd.uncertainty(problem, samples=2**14).status
+    >>> distributions = {"lambda": {"uniform": [0.05, 0.4]}, "creep_factor": {"uniform": [0.5, 1]}}
+    >>> problem = yd.table1().replace(C_s=1046770, uncertainty=distributions)
+    >>> yd.uncertainty(problem, samples=2**10).status
     'estimated'
     """
     given_damping(problem)
     if not problem.uncertainty:
         raise ProblemError("uncertainty is missing: give distributions, such as lambda: {uniform: [0.05, 0.40]}")
     seed = as_seed(seed) or 0
-    stay = remaining(problem)
-    vehicle = _vehicle(problem, looked_at(stay))
+    vehicle = judged_vehicle(problem)
     asked = _samples(samples, len(vehicle.question.conditions))
     with workers_of(executor, progress) as workers:
-        return _found(workers, problem, vehicle, asked, seed, stay)
+        return _found(workers, problem, vehicle, asked, seed)
 
 
 def remaining(problem: Problem) -> ConditionSet:
@@ -199,13 +199,15 @@ def looked_at(conditions: ConditionSet) -> tuple[Condition, ...]:
     )
 
 
-def _vehicle(problem: Problem, conditions: tuple[Condition, ...]) -> UncertainVehicle:
+def judged_vehicle(problem: Problem) -> UncertainVehicle:
+    """Return the vehicle of a problem with its uncertain parameters, and the conditions under which it is judged."""
     p = {name: float(value) for name, value in problem.parameters().items()}
     for one in problem.uncertainty:
         if one.key == "v":
             single = len(problem.speeds) == 1
             p["v"] = float(problem.speeds[0] if single else sum(one.ends(0.0)) / 2)
     question = Question.about(problem, "stable", [one.key for one in problem.uncertainty])
+    conditions = looked_at(remaining(problem))
     own = Question("stable", question.model, conditions, variables=question.variables, curve=problem.curve)
     return UncertainVehicle(own, Uncertain(p, problem.uncertainty))
 
@@ -225,9 +227,7 @@ def _power(n: float) -> int:
     return 1 << (max(1, int(n)).bit_length() - 1)
 
 
-def _found(
-    workers: Workers, problem: Problem, vehicle: UncertainVehicle, samples: int, seed: int, stay: ConditionSet
-) -> Uncertainty:
+def _found(workers: Workers, problem: Problem, vehicle: UncertainVehicle, samples: int, seed: int) -> Uncertainty:
     objective, conditions = problem.design.objective, len(vehicle.question.conditions)
     slower = conditions * (SLOWER if problem.car_body else 1)
     probability = probability_unstable(workers, vehicle, samples, seed)
@@ -257,7 +257,7 @@ def _found(
         status=probability.status,
         method=probability.method,
         conditions=conditions,
-        ranges=tuple("speed" if name == "v" else name for name, _ in stay.ranges),
+        ranges=tuple("speed" if name == "v" else name for name, _ in remaining(problem).ranges),
         percentiles_from=REPLICATES * some,
         sobol_from=REPLICATES * base * (d + 2),
         quantiles={name: percentiles(x, range(101)) for name, x in columns.items()},
