@@ -237,7 +237,7 @@ def _found(workers: Workers, problem: Problem, vehicle: UncertainVehicle, sample
     columns = {name: _answers(workers, vehicle, of, replicates, some) for name, of in values.items()}
     compared = min(replicates[0].size, COMPARED // (SLOWER if problem.car_body else 1))
     differences = sum(workers.all("eigenvalues", vehicle.differing, [(draw, compared) for draw in replicates]))
-    base, d = max(2**4, _power(BASE / slower)), len(problem.uncertainty)
+    base, d = min(replicates[0].size, max(2**4, _power(BASE / slower))), len(problem.uncertainty)
     designed = as_designed(vehicle, objective)
     return Uncertainty(
         probability_unstable=probability.value,
