@@ -1,9 +1,14 @@
 """The public names: each stands here once, for type checkers and for the package, which reads this file."""
 
+from yawdesign.damper.candidates import Choice as Choice
+from yawdesign.damper.choose import choose as choose
 from yawdesign.damper.forward import ForwardDesign as ForwardDesign
 from yawdesign.damper.forward import design as design
-from yawdesign.damper.optimise import Optimum as Optimum
 from yawdesign.damper.optimise import optimise as optimise
+from yawdesign.damper.optimum import Optimum as Optimum
+from yawdesign.damper.pareto_front import TradeOff as TradeOff
+from yawdesign.damper.trade_off import IncompleteTradeOffError as IncompleteTradeOffError
+from yawdesign.damper.trade_off import trade_off as trade_off
 from yawdesign.exports.fmu.archive import Fmu as Fmu
 from yawdesign.exports.fmu.archive import write_fmu as write_fmu
 from yawdesign.exports.functions import functions as functions
@@ -11,8 +16,10 @@ from yawdesign.exports.state_space import StateSpaceModel as StateSpaceModel
 from yawdesign.exports.state_space import state_space as state_space
 from yawdesign.exports.write import Export as Export
 from yawdesign.exports.write import export as export
+from yawdesign.hunting.critical_speed import CriticalSpeeds as CriticalSpeeds
+from yawdesign.hunting.critical_speed import critical_speed as critical_speed
+from yawdesign.hunting.stability import stability as stability
 from yawdesign.hunting.verdict import Stability as Stability
-from yawdesign.hunting.verdict import stability as stability
 from yawdesign.output.animation import animate as animate
 from yawdesign.output.plots import plot as plot
 from yawdesign.problem import PARAMETERS as PARAMETERS
@@ -29,6 +36,8 @@ from yawdesign.problem import load as load
 from yawdesign.problem import loads as loads
 from yawdesign.problem import schema as schema
 from yawdesign.problem import table1 as table1
+from yawdesign.problem.catalogue_file import read_catalogue as read_catalogue
+from yawdesign.problem.damper_catalogue import CatalogueDamper as CatalogueDamper
 from yawdesign.response.modes.followed_modes import FollowedModes as FollowedModes
 from yawdesign.response.modes.followed_modes import follow_modes as follow_modes
 from yawdesign.response.modes.named_modes import Modes as Modes

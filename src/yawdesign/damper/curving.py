@@ -9,6 +9,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from yawdesign.problem import PARAMETERS, Curve, format_quantity
+from yawdesign.problem.condition import CREEP, Condition
+from yawdesign.problem.conditions import ConditionSet, distinct
 from yawdesign.vehicle.catalogue import Parameters
 from yawdesign.vehicle.polynomials import Number
 
@@ -60,6 +62,26 @@ def curving_limit(p: Parameters, curve: Curve) -> Any:
     rest = resisting_moment(p, 0, curve)
     slope = p["b_3"] * p["b_3"] * curve.L * curve.V_r / (2 * curve.R * curve.l)
     return (curve.limit * resistance_scale(p, curve) - rest) / slope
+
+
+def curving_conditions(conditions: ConditionSet) -> tuple[Condition, ...]:
+    """Return the conditions that differ for the curve, through which every bogie runs at the curve's own speed.
+
+    The resistance rises or falls with every parameter, so those at the ends of ranges have the largest.
+    """
+    return distinct(conditions.corners, {"v", "lambda", "creep_factor", *CREEP})
+
+
+def least_curving_limit(p: Parameters, conditions: Iterable[Condition], curve: Curve) -> float:
+    """Return the least C_su as designed under all conditions [N s/m]; a tolerance of C_s lowers it."""
+    each = ((condition.applied(p), condition.damping_factor) for condition in conditions)
+    return min(float(curving_limit(q, curve)) / factor for q, factor in each)
+
+
+def largest_resistance(p: Parameters, C_s: float, conditions: Iterable[Condition], curve: Curve) -> float | None:
+    """Return the largest T / (4 Q a) under all conditions [-] with a C_s as designed; None without an axle load."""
+    each = [condition.applied({**p, "C_s": C_s}) for condition in conditions]
+    return max(float(rotational_resistance(q, q["C_s"], curve)) for q in each) if all(q["W"] for q in each) else None
 
 
 def excess(values: Mapping[str, float], variables: Iterable[str], curve: Curve) -> str:

@@ -102,3 +102,28 @@ def _common(crossings: Sequence[Crossings]) -> tuple[Float, Float, Bools]:
         # Without critical values below, every interval has the count of the first one.
         stable &= np.take_along_axis(unstable_roots, place, axis=1) == 0
     return low, high, stable
+
+
+def together(critical: Float, unstable_roots: Float) -> Crossings:
+    """Return where one vehicle is stable under many conditions, as the critical values of a single one.
+
+    Parameters
+    ----------
+    critical : array, shape (n, m)
+        Its critical values under each condition, in rising order [N s/m], filled up with NaN.
+    unstable_roots : array, shape (n, m + 1)
+        Number of unstable roots in the intervals between them, filled up with NaN.
+    """
+    n = len(critical)
+    unstable = np.nan_to_num(unstable_roots) > 0
+    low = np.concatenate([np.zeros((n, 1)), critical], axis=1)[unstable]
+    high = np.concatenate([np.where(np.isnan(critical), np.inf, critical), np.full((n, 1), np.inf)], axis=1)[unstable]
+    order = np.argsort(low, kind="stable")
+    low, reached = low[order], np.maximum.accumulate(high[order])
+    # Between what the lower ones reach and the next one nothing is unstable.
+    starts, ends = np.concatenate([[0.0], reached]), np.concatenate([low, [np.inf]])
+    gap = ends > starts
+    values = np.stack([starts[gap], ends[gap]], axis=1).ravel()
+    values = values[(values > 0) & np.isfinite(values)]
+    counts = (np.arange(len(values) + 1.0) + (0 if gap[0] else 1)) % 2
+    return values[None], counts[None]

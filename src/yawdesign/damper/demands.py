@@ -19,6 +19,7 @@ from yawdesign.vehicle.vehicle import Model
 
 # What counts as one in the shortfall from a requirement: its level, but at least this [1/s], [-].
 LEAST_SCALE = {"decay_rate": 0.1, "damping_ratio": 0.01}
+RESERVE = {"decay_rate": 1e-5, "damping_ratio": 1e-6}  # where no more than stability is wanted [1/s], [-]
 SCALE_OF_UNSTABLE = 1.0  # [1/s], of what a damping ratio falls short of where it is negative
 
 
@@ -60,9 +61,12 @@ def demands(problem: Problem, model: Model) -> tuple[Demand, ...]:
             if each.measure == "critical_speed":
                 # The speed at which stability ends is one of all motions.
                 measure = Measure("decay_rate", model.parameters, case)
-                found.append(Demand(each, measure, 0.0, given.with_speeds(LOWEST_SEARCHED, float(each.wanted))))
+                found.append(
+                    Demand(each, measure, RESERVE["decay_rate"], given.with_speeds(LOWEST_SEARCHED, float(each.wanted)))
+                )
             else:
-                found.append(Demand(each, Measure(each.measure, variables, case), float(each.wanted), given))
+                level = max(float(each.wanted), RESERVE[each.measure])
+                found.append(Demand(each, Measure(each.measure, variables, case), level, given))
     return tuple(found)
 
 

@@ -11,7 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from yawdesign.damper.curving import LOWERING, RAISING, curving_limit, resistance_scale, resisting_moment
+from yawdesign.damper.curving import (
+    LOWERING,
+    RAISING,
+    curving_conditions,
+    curving_limit,
+    resistance_scale,
+    resisting_moment,
+)
 from yawdesign.damper.demands import Demand, Demanded, demands
 from yawdesign.hunting.arrays import Bools, Float
 from yawdesign.hunting.many.measure import Measure
@@ -20,7 +27,7 @@ from yawdesign.hunting.many.worst_margin import WorstMargin
 from yawdesign.hunting.worst_condition import worst_conditions
 from yawdesign.problem import PARAMETERS, Curve, Problem
 from yawdesign.problem.condition import Condition
-from yawdesign.problem.conditions import ConditionSet, condition_set, distinct
+from yawdesign.problem.conditions import ConditionSet, condition_set
 from yawdesign.vehicle.vehicle import Model
 
 Values = dict[str, Any]
@@ -47,6 +54,8 @@ class Space:
     known : tuple of tuple of Condition, optional
         The conditions that are looked at: those of the margin, and those of each demand. By default the corners of
         all ranges.
+    demanding : bool, optional
+        Whether requirements are looked at.
     """
 
     problem: Problem
@@ -54,6 +63,7 @@ class Space:
     floor: float = -np.inf
     anchors_given: tuple[Mapping[str, float], ...] = ()
     known: tuple[tuple[Condition, ...], ...] = ()
+    demanding: bool = True
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -95,7 +105,7 @@ class Space:
     @cached_property
     def demands(self) -> tuple[Demand, ...]:
         """What every design must reach."""
-        return demands(self.problem, self.model)
+        return demands(self.problem, self.model) if self.demanding else ()
 
     @cached_property
     def conditions(self) -> tuple[Condition, ...]:
@@ -105,13 +115,13 @@ class Space:
     @cached_property
     def demanded(self) -> tuple[Demanded, ...]:
         """The demands under the conditions that are looked at."""
-        known = self.known[1:] if self.known else [demand.conditions.corners for demand in self.demands]
+        known = self.known[1:] if len(self.known) > 1 else [demand.conditions.corners for demand in self.demands]
         return tuple(Demanded(demand, some) for demand, some in zip(self.demands, known, strict=True))
 
     @cached_property
     def loads(self) -> tuple[Condition, ...]:
         """The conditions that differ for the curve, through which every bogie runs at the curve's own speed."""
-        return distinct(self.condition_set.corners, {"v", "lambda", "creep_factor", "f_11", "f_22"})
+        return curving_conditions(self.condition_set)
 
     @cached_property
     def worst_margin(self) -> WorstMargin:
@@ -145,7 +155,10 @@ class Space:
 
     def values(self, x: Float) -> Values:
         """Return all parameters and C_s at points of the unit cube, shape (variables, ...)."""
-        out = dict(self.fixed)
+        return self._placed(x, dict(self.fixed))
+
+    def _placed(self, x: Float, out: Values) -> Values:
+        """Return other values with those of the variables in them."""
         for name, coordinate in zip(self.names, x, strict=True):
             out[name] = between(*self._ends(name, out), coordinate, scale(name))
         return out
@@ -156,14 +169,22 @@ class Space:
         places = [fraction(*self._ends(name, known), float(values[name]), scale(name)) for name in self.names]
         return np.asarray(np.clip(np.array(places), 0, 1))
 
-    def _ends(self, name: str, known: Values) -> tuple[float, Any]:
+    def _ends(self, name: str, known: Values) -> tuple[Any, Any]:
         """Return the ends of a coordinate: the bounds, and for C_s what the curve allows with the other values."""
-        low, high = self.bounds(name)
+        low, high = self._bounds_with(name, known)
         if name == "C_s" and self.curve is not None:
-            for load in self.loads:
-                high = np.minimum(high, curving_limit(load.applied(known), self.curve))
+            for load, p in zip(self.loads, self._in_curve(known), strict=True):
+                high = np.minimum(high, curving_limit(p, self.curve) / load.damping_factor)
             return low, np.maximum(low, high)
         return low, high
+
+    def _bounds_with(self, name: str, known: Values) -> tuple[Any, Any]:
+        """Return the bounds of a variable where other values are known."""
+        return self.bounds(name)
+
+    def _in_curve(self, values: Values) -> list[Values]:
+        """Return the parameters with which the curve is passed, under each of the conditions that differ for it."""
+        return [load.applied(values) for load in self.loads]
 
     @cached_property
     def gentlest(self) -> Float:
@@ -184,7 +205,7 @@ class Space:
         kept, curve = np.asarray(True), self.curve
         if curve is None:
             return kept
-        for p in (load.applied(values) for load in self.loads):
+        for p in self._in_curve(values):
             allowed = curve.limit * resistance_scale(p, curve)
             kept = kept & (allowed * (1 + 1e-12) >= resisting_moment(p, p["C_s"], curve))
         return kept
@@ -227,6 +248,11 @@ class Space:
         met = np.isnan(merit)
         merit[met] = self.worst_margin.of(sets.part(met))
         return np.where(self.feasible(values), merit.reshape(shape), -np.inf)
+
+    def meets(self, x: Float) -> bool:
+        """Return whether a point of the cube meets the requirements under the conditions that are looked at."""
+        sets, _ = self._sets(self.values(x))
+        return all(one.shortfall(sets)[0] <= 0 for one in self.demanded)
 
     def under_each(self, values: Values) -> Float:
         """Return the margins under every condition, shape (conditions, n). Parameters as in `beats`."""

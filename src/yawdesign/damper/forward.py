@@ -1,51 +1,61 @@
 """Forward design of the yaw damper: stable intervals, curving limit, golden section (eqs (11) to (15))."""
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from math import inf
+from typing import Any
 
 import numpy as np
 
-from yawdesign.damper.curving import curving_limit, rotational_resistance
-from yawdesign.damper.decision import decide
-from yawdesign.damper.single_bogie import CONICITIES, SingleBogie, partings
+from yawdesign.damper.curving import curving_conditions, largest_resistance, least_curving_limit
+from yawdesign.damper.single_bogie import CONICITIES, SingleBogie, of_bogie, partings
+from yawdesign.damper.stable_intervals import ConditionLookedAt, StableUnderAll, stable_under_all
 from yawdesign.damper.status import Status
-from yawdesign.hunting.critical_damping import CriticalDamping, CriticalValue, Interval, critical_damping
-from yawdesign.hunting.routh import count_unstable
-from yawdesign.hunting.scope import scope
+from yawdesign.hunting.all_conditions import case_verdicts
+from yawdesign.hunting.critical_damping import CriticalValue, Interval
+from yawdesign.hunting.requirements import requirement_verdicts
+from yawdesign.hunting.scope import conditions_told, scope
 from yawdesign.hunting.sensitivity import sensitivity
-from yawdesign.hunting.verdict import stability_at
+from yawdesign.hunting.verdict import CaseVerdict, RequirementVerdict
 from yawdesign.problem import Curve, Problem
+from yawdesign.problem.conditions import ConditionSet, condition_set
 from yawdesign.problem.result import Result
-from yawdesign.vehicle.vehicle import Vehicle
+from yawdesign.vehicle.vehicle import Model, Vehicle
 
 
 @dataclass(frozen=True)
 class Critical(CriticalValue):
-    """A critical value and the speed it belongs to.
+    """A critical value and the condition it belongs to.
 
     Parameters
     ----------
     speed : float
         Running speed [m/s].
+    condition : mapping
+        Its values by the names of the problem file, ``speed`` [m/s] among them; SI values, a load by its name.
     """
 
     speed: float
+    condition: Mapping[str, Any]
 
 
 @dataclass(frozen=True, repr=False)
 class ForwardDesign(Result):
     """Answer of the forward design.
 
+    Values of C_s are those as designed: a tolerance of C_s is in the verdicts.
+
     Parameters
     ----------
     critical : tuple of Critical
-        All critical values, ascending at each speed.
+        The critical values, ascending under each condition: all of what is listed and of the ends of ranges (with more
+        than 64 those that bound a stable interval), and of the conditions inside ranges those that bound one.
     stable_intervals : tuple of (low, high)
-        Open intervals of C_s [N s/m] that are stable at every speed; high is infinite where there is no limit.
+        Open intervals of C_s [N s/m] that are stable under every condition; high is infinite where there is no limit.
     C_sl : float or None
         Lower end of the stable interval the design lies in [N s/m]; without a design that of the lowest interval.
     C_su : float or None
-        What the curve allows, eq. (14) [N s/m].
+        What the curve allows under every condition, eq. (14) [N s/m].
     C_s : float or None
         Golden section 0.382 of the way from C_sl to C_su, or to the end of the stable interval if that is lower
         [N s/m].
@@ -54,15 +64,23 @@ class ForwardDesign(Result):
     message : str
         The same in a sentence, and what to do.
     stable : bool
-        Whether that C_s is stable at every speed, by eigenvalues and by Routh's array.
+        Whether that C_s is stable under every condition, by eigenvalues and by Routh's array.
     rotational_resistance : float or None
-        T / (4 Q a) with that C_s [-].
+        The largest T / (4 Q a) with that C_s under any condition [-].
     sensitivity : mapping
-        d ln C_sl / d ln p [-] for every parameter p and the speed v.
+        d ln C_sl / d ln p [-] for every parameter p and the speed v, under the condition that sets C_sl.
     load : str or None
         The load that stands for Q in eq. (13): axle or wheel.
     checked : bool
         Whether the stable intervals were confirmed by two ways of counting roots.
+    worst_condition : mapping
+        The condition that sets C_sl, as in `Critical`; empty where none does, since every lower C_s is stable.
+    searched : str
+        Under which conditions this holds, and how the worst ones were found.
+    requirements : tuple of RequirementVerdict
+        What must be reached, and whether this C_s does; empty without a C_s.
+    cases : tuple of CaseVerdict
+        The stability with each fault; empty without a C_s.
     single_bogie : SingleBogie or None
         For a vehicle with a car body: what one of its bogies alone would have answered.
     scope : str
@@ -81,6 +99,10 @@ class ForwardDesign(Result):
     sensitivity: Mapping[str, float]
     load: str | None
     checked: bool
+    worst_condition: Mapping[str, Any] = field(default_factory=dict)
+    searched: str = ""
+    requirements: tuple[RequirementVerdict, ...] = ()
+    cases: tuple[CaseVerdict, ...] = ()
     single_bogie: SingleBogie | None = None
     scope: str = ""
 
@@ -100,92 +122,88 @@ def design(problem: Problem) -> ForwardDesign:
     >>> round(result.C_sl, 3), round(result.C_su, 3), round(result.C_s)
     (90702.89, 2593442.982, 1046750)
     """
-    return forward_design(Vehicle.of(problem), problem.curve)
+    p = problem.parameters()
+    found = forward_design(Model.of(problem), p, condition_set(problem), problem.curve)
+    if found.C_s is None:
+        return found
+    chosen = {**p, "C_s": found.C_s}
+    requirements, cases = requirement_verdicts(problem, chosen), case_verdicts(problem, chosen)
+    checked = all(x.checked for x in requirements) and all(x.checked for x in cases)
+    return replace(found, requirements=requirements, cases=cases, checked=found.checked and checked)
 
 
-def forward_design(vehicles: Sequence[Vehicle], curve: Curve | None) -> ForwardDesign:
+def forward_design(model: Model, p: Mapping[str, Any], conditions: ConditionSet, curve: Curve | None) -> ForwardDesign:
     """Return the forward design of a vehicle; with a car body, what a single bogie would have answered stands in it.
 
     Parameters
     ----------
-    vehicles : sequence of Vehicle
-        It under each of its conditions; their own C_s is not looked at.
+    model : Model
+        The vehicle's equations.
+    p : mapping
+        Its numbers as designed, in SI units; C_s is not looked at.
+    conditions : ConditionSet
+        Under which everything must hold.
     curve : Curve or None
         What limits C_s.
     """
-    found = _forward_design(vehicles, curve)
-    if not vehicles[0].model.has_car_body:
+    numbers = {name: float(x) for name, x in p.items() if name != "C_s"}
+    designed = model.at(numbers)
+    upper = None if curve is None else least_curving_limit(numbers, curving_conditions(conditions), curve)
+    known, found = _forward_design(designed, conditions, curve, upper)
+    if not model.has_car_body:
         return found
-    alone = _forward_design([vehicle.bogie for vehicle in vehicles], curve)
-    fastest = max(vehicles, key=lambda vehicle: float(vehicle.v))
+    _, alone = _forward_design(designed.bogie, of_bogie(conditions, model), curve, upper)
+    fastest = max(condition.speed for condition in conditions.corners)
     beside = SingleBogie(
         C_sl=alone.C_sl,
         C_s=alone.C_s,
         stable_intervals=alone.stable_intervals,
         status=alone.status,
-        stable=None if alone.C_s is None else _is_stable(vehicles, alone.C_s),
-        partings=partings(fastest),
+        stable=None if alone.C_s is None else known.is_stable(alone.C_s),
+        partings=partings(designed.replace(v=fastest)),
         searched=CONICITIES,
-        speed=float(fastest.v),
+        speed=fastest,
     )
     return replace(found, single_bogie=beside)
 
 
-def _forward_design(vehicles: Sequence[Vehicle], curve: Curve | None) -> ForwardDesign:
-    found = [critical_damping(vehicle) for vehicle in vehicles]
-    crossings = [(np.array([[x.C_s for x in sets.critical]]), np.array([sets.unstable_roots])) for sets in found]
-    upper = None if curve is None else min(float(curving_limit(vehicle.p, curve)) for vehicle in vehicles)
-    most = np.array([np.inf if upper is None else upper])
-    decision = decide(crossings, most, np.array([others_stable(vehicles)]))
-    C_sl, golden = (None if np.isnan(x[0]) else float(x[0]) for x in (decision.C_sl, decision.C_s))
-    checked = all(sets.checked for sets in found) and (golden is None or _is_stable(vehicles, golden))
-    status = Status.named(decision.status[0]) if checked else Status.UNVERIFIED
+def _forward_design(
+    designed: Vehicle, conditions: ConditionSet, curve: Curve | None, upper: float | None
+) -> tuple[StableUnderAll, ForwardDesign]:
+    known = stable_under_all(designed, conditions, inf if upper is None else upper)
+    C_sl, golden = (None if np.isnan(x[0]) else float(x[0]) for x in (known.decision.C_sl, known.decision.C_s))
+    checked = known.checked and (golden is None or known.is_stable(golden))
+    status = Status.named(known.decision.status[0]) if checked else Status.UNVERIFIED
     C_s = golden if checked else None
-    return ForwardDesign(
-        critical=tuple(
-            _at_speed(x, vehicle) for sets, vehicle in zip(found, vehicles, strict=True) for x in sets.critical
-        ),
-        stable_intervals=decision.stable_intervals(0),
+    resisted = C_s and curve and largest_resistance(designed.p, C_s, curving_conditions(conditions), curve)
+    worst, slopes = _bounding(known, C_sl)
+    return known, ForwardDesign(
+        critical=tuple(_told(x, one) for one in known.shown for x in one.damping.critical),
+        stable_intervals=known.decision.stable_intervals(0),
         C_sl=C_sl,
         C_su=upper,
         C_s=C_s,
         status=status,
         message=status.message,
         stable=C_s is not None,
-        rotational_resistance=resistance(vehicles, C_s, curve),
-        sensitivity=_sensitivity(vehicles, found, C_sl),
+        rotational_resistance=resisted or None,
+        sensitivity=slopes,
         load=None if curve is None else curve.load,
         checked=checked,
-        scope=scope(vehicles),
+        worst_condition=worst,
+        searched=conditions_told(conditions, designed.p),
+        scope=scope([designed.under(condition) for condition in conditions.corners]),
     )
 
 
-def others_stable(vehicles: Iterable[Vehicle]) -> bool:
-    """Return whether all motions that no yaw damper reaches are stable; no C_s can help there."""
-    others = [motion for vehicle in vehicles for motion in vehicle.motions if not motion.varied]
-    return all(count_unstable(motion.polynomial(0)) == 0 for motion in others)
+def _told(x: CriticalValue, one: ConditionLookedAt) -> Critical:
+    return Critical(x.C_s, x.omega, x.becomes, x.residual, one.condition.speed, one.condition.described)
 
 
-def _at_speed(x: CriticalValue, vehicle: Vehicle) -> Critical:
-    return Critical(x.C_s, x.omega, x.becomes, x.residual, float(vehicle.v))
-
-
-def _is_stable(vehicles: Iterable[Vehicle], C_s: float) -> bool:
-    """Return whether the eigenvalues and Routh's array confirm a design that lies in a stable interval."""
-    verdicts = [stability_at(vehicle.replace(C_s=C_s)) for vehicle in vehicles]
-    return all(x.stable and x.checked for x in verdicts)
-
-
-def resistance(vehicles: Sequence[Vehicle], C_s: float | None, curve: Curve | None) -> float | None:
-    """Return the largest T / (4 Q a) [-] of a vehicle under its conditions, where there is one."""
-    if C_s is None or curve is None or not all(vehicle.p["W"] for vehicle in vehicles):
-        return None
-    return max(float(rotational_resistance(vehicle.p, C_s, curve)) for vehicle in vehicles)
-
-
-def _sensitivity(vehicles: Sequence[Vehicle], found: Sequence[CriticalDamping], C_sl: float | None) -> dict[str, float]:
-    for sets, vehicle in zip(found, vehicles, strict=True):
-        for x in sets.critical:
-            if x.C_s == C_sl:
-                return sensitivity(vehicle, x.C_s, x.omega)
-    return {}
+def _bounding(known: StableUnderAll, C_sl: float | None) -> tuple[dict[str, Any], dict[str, float]]:
+    """Return the condition that sets C_sl, and the sensitivities under it."""
+    found = known.bounding(C_sl)
+    if found is None:
+        return {}, {}
+    one, x = found
+    return one.condition.described, sensitivity(one.vehicle, x.C_s * one.condition.damping_factor, x.omega)

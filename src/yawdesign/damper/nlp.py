@@ -35,6 +35,7 @@ OPTIONS: Mapping[str, Any] = {
     # the root by the square root of it.
     "ipopt.bound_relax_factor": 0.0,
     "error_on_fail": False,
+    "show_eval_warnings": False,
 }
 
 # From a kink IPOPT must not be pushed far inside first, from a slope it must: no one setting serves all starts.

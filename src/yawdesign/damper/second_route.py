@@ -3,17 +3,23 @@
 import decimal
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from itertools import pairwise
 
 import numpy as np
 
-from yawdesign.damper.design_space import Space
+from yawdesign.damper.design_space import Space, Values
 from yawdesign.hunting.arrays import Bools, Float, Index
 from yawdesign.hunting.hurwitz import hurwitz_minors
+from yawdesign.hunting.many.measure import Measure
+from yawdesign.hunting.many.parameter_sets import ParameterSets
+from yawdesign.hunting.many.worst_margin import WorstMargin
 from yawdesign.hunting.routh import TIME_UNIT, routh_column, sector_column, sector_rows
+from yawdesign.hunting.verdict import Stability, stability_at
 from yawdesign.problem import exact
+from yawdesign.problem.condition import Condition
 from yawdesign.vehicle.polynomials import Polynomial, scale_variable, shift, trim
 from yawdesign.vehicle.vehicle import Model, Vehicle
 
@@ -23,6 +29,92 @@ AGREE = {"decay_rate": 2e-5, "damping_ratio": 1e-6}
 SECTIONS, LEVELS = 3, 1025  # how often the margin is enclosed, and by how many levels
 DIGITS, HALVINGS = 100, 24  # with exact coefficients
 TOO_MANY = 1000  # roots: what is counted where Routh's array breaks down
+
+
+LOOKED_AT = 24  # conditions of the least margins that are looked at one by one
+
+
+@dataclass(frozen=True)
+class Checked:
+    """A design under all conditions that are known, by two routes.
+
+    Parameters
+    ----------
+    vehicles : tuple of Vehicle
+        Under the conditions of the least margins, the worst first.
+    results : tuple of Stability
+        The stability of each.
+    worst : Condition
+        The worst condition.
+    margin, second : float
+        The worst margin by eigenvalues, and by Routh's array [1/s], [-].
+    stable : bool
+        Whether it is stable under every condition.
+    agree : bool
+        Whether both routes agree.
+    """
+
+    vehicles: tuple[Vehicle, ...]
+    results: tuple[Stability, ...]
+    worst: Condition
+    margin: float
+    second: float
+    stable: bool
+    agree: bool
+
+
+def checked_under_all(space: Space, values: Values) -> Checked:
+    """Return a design under all conditions of a space: the worst ones one by one, the others by verdicts on arrays.
+
+    Parameters
+    ----------
+    space : Space
+        With the conditions that are looked at.
+    values : mapping
+        The design's parameters, C_s among them.
+    """
+    sets, tolerance = ParameterSets(space.model, values, 1), AGREE[space.objective]
+    measure = Measure(space.objective, space.names)
+    order = np.argsort(WorstMargin(space.conditions, measure).under_each(sets)[:, 0], kind="stable")
+    near, far = order[:LOOKED_AT], order[LOOKED_AT:]
+    vehicles = [space.model.at(space.conditions[k].applied(values)) for k in near]
+    results = [stability_at(vehicle, space.names) for vehicle in vehicles]
+    margins = [float(getattr(result, space.objective)) for result in results]
+    first = int(np.argmin(margins))
+    margin = margins[first]
+    second = margin_by_routh(space, vehicles, margin)
+    stable, agree = all(result.stable for result in results), all(result.checked for result in results)
+    if len(far):
+        others = [space.conditions[k] for k in far]
+        every = Measure("decay_rate", space.model.parameters)
+        stable &= bool(WorstMargin(others, every).exceeds(sets, np.zeros(1))[0])
+        agree &= margin < 0 or bool(WorstMargin(others, measure).exceeds(sets, np.array([margin - tolerance]))[0])
+    turned = [first, *(k for k in range(len(near)) if k != first)]
+    return Checked(
+        vehicles=tuple(vehicles[k] for k in turned),
+        results=tuple(results[k] for k in turned),
+        worst=space.conditions[near[first]],
+        margin=margin,
+        second=second,
+        stable=stable,
+        agree=agree and abs(second - margin) <= tolerance,
+    )
+
+
+@dataclass(frozen=True)
+class NextMargin:
+    """The worst margin of all modes but those that cap it, by eigenvalues, and whether Routh's array agrees."""
+
+    margin: float
+    agree: bool
+
+
+def next_margins(space: Space, vehicles: Sequence[Vehicle]) -> NextMargin:
+    """Return the worst margin of all modes but those that cap it. Parameters as in `margin_by_routh`."""
+    others = Measure(space.objective, space.names, pairs=space.pairs)
+    margin = min(float(others.of(ParameterSets(space.model, vehicle.p, 1))[0]) for vehicle in vehicles)
+    second = margin_by_routh(space, vehicles, margin, space.pairs)
+    return NextMargin(margin, abs(second - margin) <= AGREE[space.objective])
 
 
 def margin_by_routh(space: Space, vehicles: Sequence[Vehicle], margin: float, pairs: int = 0) -> float:

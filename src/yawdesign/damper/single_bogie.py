@@ -11,8 +11,9 @@ import numpy as np
 from yawdesign.hunting.arrays import Bools, Float
 from yawdesign.hunting.many.critical_values import critical_field
 from yawdesign.hunting.many.parameter_sets import ParameterSets
-from yawdesign.problem.condition import CREEP
-from yawdesign.vehicle.vehicle import Vehicle
+from yawdesign.problem.condition import CREEP, CREEP_FACTOR, TOLERANCE
+from yawdesign.problem.conditions import ConditionSet
+from yawdesign.vehicle.vehicle import Model, Vehicle
 
 CREEP_FACTORS = (1.0, 0.7, 0.5)
 CONICITIES = (0.02, 0.5)
@@ -67,6 +68,14 @@ class SingleBogie:
     partings: tuple[Parting, ...]
     searched: tuple[float, float]
     speed: float
+
+
+def of_bogie(conditions: ConditionSet, model: Model) -> ConditionSet:
+    """Return what conditions of a vehicle say of one of its bogies."""
+    kept = {*model.bogie.parameters, CREEP_FACTOR.key}
+    changed = [change for one in conditions.lists for change in (*one.changes, *(one.load.changes if one.load else ()))]
+    named = {name for name, _ in (*changed, *conditions.ranges)}
+    return conditions.without({name for name in named if name.removeprefix(TOLERANCE) not in kept})
 
 
 def partings(vehicle: Vehicle) -> tuple[Parting, ...]:

@@ -89,11 +89,23 @@ class Status(StrEnum):
         "no design within the bounds keeps the curve's limit",
         "lower C_s or its bounds, allow a larger radius or limit, or let other parameters vary",
     )
+    REQUIREMENTS_MISSED = (
+        "infeasible",
+        "no design within the bounds meets all requirements",
+        "see what is enough to change",
+    )
     UNVERIFIED_OPTIMUM = (
         "unverified",
         "eigenvalues and Routh's array differ",
         "do not use this result; the parameters are too extreme for double precision",
     )
+    FRONT = "ok", "every point is the best design found with its rotational resistance"
+    NO_FRONT = (
+        "infeasible",
+        "no stable design within the bounds meets the requirements, up to twice the curve's limit",
+        "lower the requirements, widen the bounds or vary other parameters",
+    )
+    STOPPED = "incomplete", "not all points were looked for; each of these is finished"
 
     @property
     def message(self) -> str:

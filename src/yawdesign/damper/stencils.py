@@ -11,6 +11,7 @@ import numpy as np
 from yawdesign.hunting.arrays import Bools, Float, Index
 from yawdesign.problem.arguments import Progress
 
+LEAST = 1e-10  # gain that counts, relative: below it verdicts and values differ by rounding
 MOST_TRIES = 12  # looks at a stencil: half of its points are better than any one, but for rounding near an optimum
 
 
@@ -34,6 +35,7 @@ def refine(
     until: float = 1e-5,
     rounds: int = 40,
     points: int = 192,
+    tries: int = MOST_TRIES,
     progress: Progress = lambda text, part: None,
 ) -> Float:
     """Return points improved by shrinking random stencils, all at once, the best first.
@@ -50,7 +52,7 @@ def refine(
             break
         progress("refining the best designs", count / rounds)
         trial = _stencil(x[:, k], size[k], step[:, k], points, rng)
-        better, value = _best_of(landscape, trial, margin[k])
+        better, value = _best_of(landscape, trial, margin[k], tries)
         won = value > margin[k]
         step[:, k] = np.where(won, better - x[:, k], step[:, k] * 0.5)
         x[:, k], margin[k] = np.where(won, better, x[:, k]), np.where(won, value, margin[k])
@@ -67,13 +69,14 @@ def _stencil(x: Float, size: Float, step: Float, points: int, rng: np.random.Gen
     return np.asarray(np.clip(x[:, :, None] + noise + along, 0, 1))
 
 
-def _best_of(landscape: Landscape, trial: Float, level: Float) -> tuple[Float, Float]:
+def _best_of(landscape: Landscape, trial: Float, level: Float, tries: int) -> tuple[Float, Float]:
     """Return the best point of each stencil and its margin, at least the given level, found with verdicts."""
     d, n, m = trial.shape
     x, owner = trial.reshape(d, -1), np.repeat(np.arange(n), m)
     best, margin = trial[:, :, 0].copy(), level.copy()
-    for _ in range(MOST_TRIES):
-        beats = landscape.beats_at(x, margin[owner])
+    for _ in range(tries):
+        level = margin[owner]
+        beats = landscape.beats_at(x, level + LEAST * np.abs(level))
         x, owner = x[:, beats], owner[beats]
         if not len(owner):
             break

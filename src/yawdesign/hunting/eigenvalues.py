@@ -13,6 +13,8 @@ from yawdesign.vehicle.polynomials import Polynomial, derivative, evaluate, scal
 from yawdesign.vehicle.state_space import fill
 from yawdesign.vehicle.vehicle import Vehicle
 
+EXACT = 1e-9  # largest backward error with which an eigenvalue counts as a root of the characteristic polynomial
+
 
 def state_matrix(vehicle: Vehicle) -> Float:
     """Return the state matrix of a vehicle in the coordinates of each end (25 states, 15 without motors).

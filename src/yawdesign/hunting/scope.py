@@ -1,7 +1,11 @@
-"""What an answer does not hold: said in a line beside it."""
+"""Under which conditions an answer holds, and what it does not hold: said in a line beside it."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
+from yawdesign.problem.condition import CREEP, CREEP_FACTOR, Condition
+from yawdesign.problem.condition_texts import change_text, range_text
+from yawdesign.problem.conditions import ConditionSet
 from yawdesign.vehicle.vehicle import Vehicle
 
 LOW_CONICITY = 0.2  # below about this a car body that moves may ask for many times the damping
@@ -29,3 +33,47 @@ def scope(vehicles: Sequence[Vehicle]) -> str:
         return ""
     conicity = min(float(vehicle.p["lambda"]) for vehicle in vehicles)
     return NOT_TO_BE_RELIED_ON.format(conicity) if conicity < LOW_CONICITY else STANDS_STILL
+
+
+def conditions_told(conditions: ConditionSet, p: Mapping[str, Any] | None = None) -> str:
+    """Return in words under which conditions an answer holds.
+
+    Parameters
+    ----------
+    conditions : ConditionSet
+        Those of a problem.
+    p : mapping, optional
+        The vehicle's numbers in SI units: where there is one condition only, its conicity is told too.
+
+    Examples
+    --------
+    >>> from yawdesign import table1
+    >>> from yawdesign.problem.conditions import condition_set
+    >>> conditions_told(condition_set(table1()), {"lambda": 0.1})
+    'one condition only: lambda 0.1, creep as given, 300 km/h'
+    """
+    values = _listed(conditions.lists)
+    if conditions.is_one:
+        if p is not None and "lambda" not in values:
+            values = {"lambda": [p["lambda"]], **values}
+        texts = {name: change_text(name, *each) for name, each in values.items()}
+        creep = [] if CREEP_FACTOR.key in values or set(CREEP) & values.keys() else ["creep as given"]
+        speed = [texts.pop("speed")] if "speed" in texts else []
+        return "one condition only: " + ", ".join([*texts.values(), *creep, *speed])
+    each_of = "; ".join(change_text(name, *each) for name, each in values.items())
+    if not conditions.ranges:
+        return f"all {len(conditions.lists)} conditions ({each_of})"
+    ranges = ", ".join(range_text(name, ends) for name, ends in conditions.ranges)
+    beside = f", each with {each_of}" if each_of else ""
+    return f"every condition that a search found in {ranges}{beside} (no proof)"
+
+
+def _listed(conditions: Sequence[Condition]) -> dict[str, list[Any]]:
+    """Return the values that come in a list of conditions, by name, each once."""
+    found: dict[str, list[Any]] = {}
+    for condition in conditions:
+        for name, value in condition.described.items():
+            known = found.setdefault(name, [])
+            if value not in known:
+                known.append(value)
+    return found

@@ -1,6 +1,6 @@
-"""Whether the vehicle of a problem is stable, by what margin, and with which faults."""
+"""What is said of a vehicle's stability, and how it is found under one condition, by two independent ways."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Complex
 from yawdesign.hunting.eigenvalues import (
+    EXACT,
     backward_error,
     count_undamped,
     damping_ratio,
@@ -17,18 +18,13 @@ from yawdesign.hunting.eigenvalues import (
     polished,
 )
 from yawdesign.hunting.routh import count_unstable
-from yawdesign.hunting.scope import scope
 from yawdesign.problem import Problem, ProblemError
-from yawdesign.problem.cases import Case
-from yawdesign.problem.condition import Condition
 from yawdesign.problem.conditions import conditions
 from yawdesign.problem.result import Result
 from yawdesign.vehicle.elements import Link, parted
 from yawdesign.vehicle.polynomials import Polynomial
 from yawdesign.vehicle.signals import BOGIES, ENDS
 from yawdesign.vehicle.vehicle import Vehicle
-
-EXACT = 1e-9  # largest backward error with which an eigenvalue counts as a root of the characteristic polynomial
 
 
 @dataclass(frozen=True)
@@ -63,7 +59,8 @@ class CaseVerdict:
     decay_rate, damping_ratio : float
         Margins [1/s], [-] over the modes that some design variable can move.
     worst_condition : mapping
-        The condition of the least decay rate: ``speed`` [m/s].
+        The condition of the least decay rate, of all modes where one is unstable: ``speed`` [m/s], others in SI units,
+        a load by its name.
     checked : bool
         As in `Stability`.
     """
@@ -72,25 +69,58 @@ class CaseVerdict:
     stable: bool
     decay_rate: float
     damping_ratio: float
-    worst_condition: Mapping[str, float]
+    worst_condition: Mapping[str, Any]
+    checked: bool
+
+
+@dataclass(frozen=True)
+class RequirementVerdict:
+    """Whether a requirement is met, under all conditions.
+
+    Parameters
+    ----------
+    name : str
+        As the problem file has it: ``damping_ratio``, ``cases.damping_ratio``.
+    wanted : float
+        The least value that is required [1/s], [-] or [m/s].
+    reached : float or None
+        The worst value under all conditions, and of all faults where these must reach it, in the same unit; None for a
+        critical speed beyond the searched range, which then counts as met.
+    met : bool
+        Whether that is enough.
+    worst_condition : mapping
+        The condition of the reached value: ``speed`` [m/s], others in SI units, a load by its name.
+    case : str or None
+        The fault with the worst value, where faults must reach it.
+    checked : bool
+        True if two independent ways agree on it.
+    """
+
+    name: str
+    wanted: float
+    reached: float | None
+    met: bool
+    worst_condition: Mapping[str, Any]
+    case: str | None
     checked: bool
 
 
 @dataclass(frozen=True, repr=False)
 class Stability(Result):
-    """Stability of a vehicle at one yaw damping and one speed, the worst of the problem's speeds.
+    """Stability of a vehicle at one yaw damping, under all conditions of a problem.
 
-    A vehicle is one bogie under a car body that stands still, or a car body on two bogies.
+    A vehicle is one bogie under a car body that stands still, or a car body on two bogies. Eigenvalues, modes and speed
+    are those under the worst condition.
 
     Parameters
     ----------
     stable : bool
-        All roots lie in the left half-plane, by their eigenvalues and by Routh's array.
+        All roots lie in the left half-plane, by their eigenvalues and by Routh's array, under every condition.
     spectral_abscissa : float
-        Largest real part [1/s] of all modes: of the bogie's 25 states (15 without motors), or the 56 (36) of a vehicle
-        with a car body.
+        Largest real part [1/s] of all modes under any condition: of the bogie's 25 states (15 without
+        motors), or the 56 (36) of a vehicle with a car body.
     decay_rate, damping_ratio : float
-        Margins [1/s], [-] over the modes that some design variable can move.
+        Margins [1/s], [-] over the modes that some design variable can move, each the worst under all conditions.
     eigenvalues : tuple of complex
         All of them [1/s], least damped first.
     modes : tuple of Mode
@@ -98,18 +128,21 @@ class Stability(Result):
     fixed_modes : mapping name -> tuple of complex
         The roots [1/s] that no design variable moves, and that of the two yaw dampers working against each other.
     C_s, speed : float
-        Damping of the pair of yaw dampers of each bogie [N s/m] and speed [m/s] to which this belongs.
+        Damping of the pair of yaw dampers of each bogie as designed [N s/m], and speed [m/s] of the worst condition.
     unstable_roots : int
         Number of eigenvalues in the right half-plane.
     checked : bool
-        True if, under every condition, Routh's array counts as many roots, and every eigenvalue is a root of the
-        characteristic polynomial.
+        True if, under the worst conditions, Routh's array counts as many roots, and every eigenvalue is a root of the
+        characteristic polynomial; and if both ways agree under many others.
     worst_condition : mapping
-        The condition under which this is so, of those of the problem: ``speed`` [m/s].
+        The condition of the least decay rate, of all modes where one is unstable: ``speed`` [m/s], others in SI units,
+        a load by its name.
+    requirements : tuple of RequirementVerdict
+        What was required and reached.
     cases : tuple of CaseVerdict
         The same with each fault of the problem.
-    requirements : tuple
-        What was required and reached: none.
+    searched : str
+        Under which conditions this holds, and how the worst one was found.
     scope : str
         What this answer does not hold; empty where a car body moves in it.
     """
@@ -125,9 +158,10 @@ class Stability(Result):
     speed: float
     unstable_roots: int
     checked: bool
-    worst_condition: Mapping[str, float] = field(default_factory=dict)
-    requirements: tuple[Any, ...] = ()
+    worst_condition: Mapping[str, Any] = field(default_factory=dict)
+    requirements: tuple[RequirementVerdict, ...] = ()
     cases: tuple[CaseVerdict, ...] = ()
+    searched: str = ""
     scope: str = ""
 
 
@@ -138,66 +172,14 @@ def given_damping(problem: Problem) -> float:
     return problem.bogie.C_s
 
 
-def stability(problem: Problem) -> Stability:
-    """Return the stability of a problem's vehicle with the yaw damping written in it.
-
-    Parameters
-    ----------
-    problem : Problem
-        With a value of ``C_s``. Over a range of speeds the result is that of the least decay rate.
-
-    Raises
-    ------
-    ProblemError
-        If the problem has no ``C_s``.
-
-    Examples
-    --------
-    >>> import yawdesign as yd
-    >>> round(yd.stability(yd.table1(equations="as-printed")).spectral_abscissa, 8)
-    -1.29853702
-    """
-    given_damping(problem)
-    vehicles, variables = Vehicle.of(problem), problem.design.variables
-    verdicts = [judged(case, vehicles, conditions(problem), variables) for case in problem.cases]
-    return replace(least_stable(problem)[1], cases=tuple(verdicts), scope=scope(vehicles))
-
-
 def least_stable(problem: Problem) -> tuple[Vehicle, Stability]:
-    """Return a problem's vehicle at the speed of the least decay rate, and its stability. As in `stability`."""
+    """Return a problem's vehicle at the speed of the least decay rate, and its stability there."""
     given_damping(problem)
-    vehicles = Vehicle.of(problem)
-    worst, place = _worst(vehicles, conditions(problem), problem.design.variables)
-    return vehicles[place], worst
-
-
-def judged(
-    case: Case, vehicles: Sequence[Vehicle], conditions: Sequence[Condition], variables: Collection[str]
-) -> CaseVerdict:
-    """Return the stability of a vehicle with a fault.
-
-    Parameters
-    ----------
-    case : Case
-        The fault.
-    vehicles, conditions : sequences of Vehicle, Condition
-        The vehicle under each condition.
-    variables : collection of str
-        Design variables; they decide which decoupled modes count in the margins.
-    """
-    worst, _ = _worst([vehicle.with_fault(case) for vehicle in vehicles], conditions, variables)
-    margins = {"decay_rate": worst.decay_rate, "damping_ratio": worst.damping_ratio}
-    return CaseVerdict(case.name, worst.stable, **margins, worst_condition=worst.worst_condition, checked=worst.checked)
-
-
-def _worst(
-    vehicles: Sequence[Vehicle], conditions: Sequence[Condition], variables: Collection[str]
-) -> tuple[Stability, int]:
-    """Return the stability under the condition of the least decay rate, and the number of that."""
-    found = [stability_at(vehicle, variables) for vehicle in vehicles]
+    vehicles, looked = Vehicle.of(problem), conditions(problem)
+    found = [stability_at(vehicle, problem.design.variables) for vehicle in vehicles]
     place = min(range(len(found)), key=lambda k: (found[k].stable, found[k].decay_rate))
     checked = all(result.checked for result in found)
-    return replace(found[place], worst_condition=conditions[place].described, checked=checked), place
+    return vehicles[place], replace(found[place], worst_condition=looked[place].described, checked=checked)
 
 
 def stability_at(vehicle: Vehicle, variables: Collection[str] = ()) -> Stability:

@@ -7,7 +7,8 @@ a search and no proof: a narrow dip between the points of the grid may be missed
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import product
+from functools import lru_cache
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
@@ -29,6 +30,8 @@ FEW = 192  # conditions of which the margins are all computed
 MOST_LOOKS = 12
 SLACK = 0.1  # of the lowest margin: conditions with so much more are starts too
 STARTS = 5  # conditions from which the lowest margin nearby is looked for
+LOWEST = -1e9  # what counts as a margin of minus infinity
+APART = 1e-3  # two that are closer than this, relative to the ranges, are one
 STEP = 1e-5  # of the differences along a range, relative to it
 
 
@@ -63,13 +66,23 @@ def worst_conditions(model: Model, p: dict[str, Any], conditions: ConditionSet, 
     names, ends = _names(conditions)
     place, x = _grid(conditions)
     sets = _sets(model, p, conditions, place, x)
-    margin = _low_margins(measure, sets)
-    found = []
+    margin = _low_margins(measure, sets, some=bool(conditions.ranges))
+    found: list[tuple[int, Float, float]] = []
     for k in _starts(conditions, place, x, margin):
         there, least = _descended(model, p, conditions.lists[place[k]], names, ends, x[:, k], measure)
-        values = dict(zip(names, _between(ends, there).tolist(), strict=True))
-        found.append(Worst(conditions.at(int(place[k]), values), least))
-    return tuple(sorted(found, key=lambda worst: worst.margin))
+        if all(place[k] != j or np.max(np.abs(there - other), initial=0) > APART for j, other, _ in found):
+            found.append((int(place[k]), there, least))
+    values = [dict(zip(names, _between(ends, there).tolist(), strict=True)) for _, there, _ in found]
+    worst = [Worst(conditions.at(k, x), least) for (k, _, least), x in zip(found, values, strict=True)]
+    return tuple(sorted(worst, key=lambda one: one.margin))
+
+
+def exceeds_everywhere(
+    model: Model, p: dict[str, Any], conditions: ConditionSet, measure: Measure, level: float
+) -> bool:
+    """Return whether a margin surely exceeds a level at every point of the grid; the other arguments as above."""
+    yes, sure = measure.exceeds(_sets(model, p, conditions, *_grid(conditions)), level)
+    return bool(np.all(yes & sure))
 
 
 def _names(conditions: ConditionSet) -> tuple[list[str], Float]:
@@ -90,6 +103,7 @@ def _grid(conditions: ConditionSet) -> tuple[Index, Float]:
     return np.repeat(np.arange(lists), x.shape[1]), np.tile(x, lists)
 
 
+@lru_cache
 def _points(d: int, most: int) -> Float:
     if d == 0:
         return np.zeros((0, 1))
@@ -106,28 +120,27 @@ def _points(d: int, most: int) -> Float:
 def _sets(model: Model, p: dict[str, Any], conditions: ConditionSet, place: Index, x: Float) -> ParameterSets:
     """Return the vehicle under the conditions at points of the cube; the places rise."""
     names, ends = _names(conditions)
-    values = _between(ends, x)
-    ways = []
-    for k, condition in enumerate(conditions.lists):
-        own = place == k
-        ways.append((condition.with_values(dict(zip(names, values[:, own], strict=True))), int(own.sum())))
+    values, ways = _between(ends, x), []
+    borders = np.searchsorted(place, np.arange(len(conditions.lists) + 1)).tolist()
+    for condition, (start, stop) in zip(conditions.lists, pairwise(borders), strict=True):
+        ways.append((condition.with_values(dict(zip(names, values[:, start:stop], strict=True))), stop - start))
     return under_conditions(model, p, ways)
 
 
-def _low_margins(measure: Measure, sets: ParameterSets) -> Float:
-    """Return the margins of those vehicles that have the lowest ones, infinity for others."""
+def _low_margins(measure: Measure, sets: ParameterSets, *, some: bool) -> Float:
+    """Return the margins of those vehicles that have the lowest ones, or of some of them; infinity for others."""
     rng = np.random.default_rng(0)
     margin, left = np.full(sets.size, np.inf), np.arange(sets.size)
     for _ in range(MOST_LOOKS):
         if len(left) <= FEW:
             break
-        some = rng.choice(left, SAMPLE, replace=False)
-        margin[some] = measure.of(sets.part(some))
+        sample = rng.choice(left, SAMPLE, replace=False)
+        margin[sample] = measure.of(sets.part(sample))
         least = margin.min()
         yes, sure = measure.exceeds(sets.part(left), least + SLACK * abs(least))
         left = left[~(yes & sure)]
-    if len(left) > FEW:  # many are equally low, or unstable ones have no verdict
-        left = rng.choice(left, min(len(left), 10 * FEW), replace=False)
+    if some and len(left) > 10 * FEW:  # many are equally low, or unstable ones have no verdict
+        left = rng.choice(left, 10 * FEW, replace=False)
     margin[left] = measure.of(sets.part(left))
     return margin
 
@@ -168,7 +181,9 @@ def _descended(
         found = margins(np.concatenate([x[:, None], inside[:, None] + steps], axis=1))
         if found[0] < best[1]:
             best = x.copy(), float(found[0])
-        return float(found[0]), (found[1 : d + 1] - found[d + 1 :]) / (2 * STEP)
+        with np.errstate(invalid="ignore"):  # where a floor is missed, a margin is minus infinity
+            slope = np.nan_to_num((found[1 : d + 1] - found[d + 1 :]) / (2 * STEP), posinf=0.0, neginf=0.0)
+        return float(np.maximum(found[0], LOWEST)), slope
 
     if d == 0:
         return start, float(margins(start[:, None])[0])

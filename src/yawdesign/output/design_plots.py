@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from yawdesign.damper.forward import ForwardDesign
-    from yawdesign.damper.optimise import Optimum
+    from yawdesign.damper.optimum import Optimum
 
 DAMPING = to_unit(1.0, "kN·s/m")
 

@@ -2,7 +2,6 @@
 
 import io
 from collections.abc import Iterable
-from dataclasses import replace
 from math import pi
 from typing import TYPE_CHECKING, Any
 
@@ -10,17 +9,19 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from yawdesign.hunting.chosen_condition import condition_in_words
+from yawdesign.output.condition_texts import condition_text
 from yawdesign.problem import PARAMETERS, format_quantity
+from yawdesign.problem.requirements import CASES
 
 if TYPE_CHECKING:
     from yawdesign.damper.forward import ForwardDesign
-    from yawdesign.damper.optimise import Optimum, SingleOptimum
     from yawdesign.damper.single_bogie import Parting, SingleBogie
     from yawdesign.exports.write import Export
-    from yawdesign.hunting.verdict import CaseVerdict, Mode, Stability
+    from yawdesign.hunting.verdict import CaseVerdict, Mode, RequirementVerdict, Stability
 
 DAMPING = "kN·s/m"
-SHOWN, SHOWN_CAPPING = 10, 5  # sensitivities
+SHOWN = 10  # sensitivities
 
 
 def titled(title: str, *columns: str) -> Table:
@@ -56,7 +57,8 @@ def facts(title: str, rows: Iterable[tuple[str, str]]) -> Table:
     return table
 
 
-def _modes(modes: Iterable["Mode"]) -> Table:
+def modes_table(modes: Iterable["Mode"]) -> Table:
+    """Return the table of the modes."""
     table = titled("Modes, least damped first", "frequency [Hz]", "damping ratio [%]", "decay rate [1/s]")
     for mode in modes:
         frequency = f"{mode.frequency:.3f}" if mode.frequency else "no oscillation"
@@ -71,20 +73,46 @@ def verified(checked: bool) -> str:
 
 def stability_tables(result: "Stability") -> RenderableType:
     """Return the tables of a `Stability`."""
-    verdict = Text("stable", "bold green") if result.stable else Text("UNSTABLE", "bold red")
-    if not result.checked:
-        verdict = Text("NOT VERIFIED: too close to the boundary, or too stiff, for double precision", "bold yellow")
     summary = facts(
-        f"Stability at {speed(result.speed)} with C_s = {damping(result.C_s)}",
+        f"With C_s = {damping(result.C_s)}",
         [
             ("spectral abscissa, all modes", f"{result.spectral_abscissa:.6g} 1/s"),
             ("decay rate, modes the design moves", margin(result.decay_rate, "decay_rate")),
             ("damping ratio, modes the design moves", margin(result.damping_ratio, "damping_ratio")),
+            ("worst condition", condition_text(result.worst_condition)),
             ("checked", verified(result.checked)),
         ],
     )
-    first = Text("The bogie is " if result.scope else "The vehicle is ").append_text(verdict).append(".")
-    return Group(first, *scope_lines(result.scope), summary, *case_tables(result.cases), _modes(result.modes))
+    beside = [*requirement_tables(result.requirements), *case_tables(result.cases)]
+    return Group(_verdict(result), *scope_lines(result.scope), summary, *beside, modes_table(result.modes))
+
+
+def _verdict(result: "Stability") -> Text:
+    """Return the verdict and under which conditions it holds."""
+    verdict = Text("stable", "bold green") if result.stable else Text("UNSTABLE", "bold red")
+    if not result.checked:
+        verdict = Text("NOT VERIFIED: too close to the boundary, or too stiff, for double precision", "bold yellow")
+    at = "" if result.stable else f" with {condition_text(result.worst_condition)}. It was looked at"
+    first = Text("The bogie is " if result.scope else "The vehicle is ").append_text(verdict)
+    return first.append(f"{at} under {result.searched}.")
+
+
+def requirement_tables(requirements: "Iterable[RequirementVerdict]") -> list[Table]:
+    """Return the table of what is required and reached."""
+    table = titled("Requirements, under all conditions", "requirement", "at least", "reached", "met")
+    table.add_column("at", justify="left")
+    for each in requirements:
+        measure = each.name.removeprefix(CASES)
+        met = ("yes" if each.met else "NO") if each.checked else "not verified"
+        at = ", ".join([*([each.case] if each.case else []), condition_text(each.worst_condition)])
+        table.add_row(each.name, _reached(each.wanted, measure), _reached(each.reached, measure), met, at)
+    return [table] if table.row_count else []
+
+
+def _reached(value: float | None, measure: str) -> str:
+    if measure != "critical_speed":
+        return margin(value, measure)
+    return "beyond what was searched" if value is None else speed(value)
 
 
 def scope_lines(scope: str) -> list[Text]:
@@ -94,11 +122,12 @@ def scope_lines(scope: str) -> list[Text]:
 
 def case_tables(cases: "Iterable[CaseVerdict]") -> list[Table]:
     """Return the table of what happens with each fault."""
-    table = titled("Faults", "case", "stable", "decay rate [1/s]", "damping ratio [%]", "at")
+    table = titled("Faults", "case", "stable", "decay rate [1/s]", "damping ratio [%]")
+    table.add_column("at", justify="left")
     for case in cases:
         stable = ("yes" if case.stable else "NO") if case.checked else "not verified"
-        at = speed(case.worst_condition["speed"])
-        table.add_row(case.name, stable, f"{case.decay_rate:.4g}", f"{100 * case.damping_ratio:.2f}", at)
+        numbers = f"{case.decay_rate:.4g}", f"{100 * case.damping_ratio:.2f}"
+        table.add_row(case.name, stable, *numbers, condition_text(case.worst_condition))
     return [table] if table.row_count else []
 
 
@@ -172,74 +201,11 @@ def _sensitivities(result: "ForwardDesign") -> list[Table]:
     return [table]
 
 
-def optimum_tables(result: "Optimum") -> RenderableType:
-    """Return the tables of an `Optimum`."""
-    if result.margin is None:
-        return Text(f"{result.status}: {result.message}")
-    own = [_optimum_facts(result), _bounds(result), *case_tables(result.cases), _modes(result.modes), _fixed(result)]
-    return Group(*scope_lines(result.forward.scope), *own, design_tables(replace(result.forward, scope="")))
-
-
-def _optimum_facts(result: "Optimum") -> Table:
-    name = {"decay_rate": "least decay rate", "damping_ratio": "least damping ratio"}[result.objective]
-    rows = [
-        (f"{name}, before", margin(result.margin_before, result.objective)),
-        (f"{name}, optimum", margin(result.margin, result.objective)),
-        ("the same by Routh's array", margin(result.margin_polynomial, result.objective)),
-        ("Hurwitz minors all positive", "yes" if result.hurwitz_positive else "no"),
-        ("active limits", ", ".join(result.active) or "none: the optimum is inside its bounds"),
-        ("answer", f"{result.status}: {result.message}"),
-    ]
-    if result.capped_by is not None:
-        most = list(result.capping_sensitivity.items())[:SHOWN_CAPPING]
-        rows[2:2] = [
-            ("capped by, since the variables hardly move it", result.capped_by),
-            (f"{name} of all other modes", margin(result.next_margin, result.objective)),
-            (
-                "what moves the capping mode most",
-                ", ".join(f"{key} {value:+.2g}" for key, value in most) + " (% for 1 %)",
-            ),
-        ]
-    if result.rotational_resistance is not None:
-        rows.append(("rotational resistance T/(4Qa)", f"{result.rotational_resistance:.5f}"))
-    if result.single_bogie is not None:
-        rows += _single_rows(result, result.single_bogie)
-    return facts("Optimum", rows)
-
-
-def _single_rows(result: "Optimum", alone: "SingleOptimum") -> list[tuple[str, str]]:
-    """Return what a single bogie would have answered, and what that is worth under the car body."""
-    found = ((name, alone.optimum[name]) for name in result.bounds)
-    values = [f"{name} = {format_quantity(x, PARAMETERS[name].unit)}" for name, x in found if x is not None]
-    still, moving = (margin(x, result.objective) for x in (alone.margin, alone.margin_with_car_body))
-    worth = f"{still}; with the car body {moving}" + ("" if alone.stable else ", UNSTABLE")
-    return [("one bogie under a car body standing still", ", ".join(values) or "no design"), ("its margin", worth)]
-
-
-def _bounds(result: "Optimum") -> Table:
-    table = titled("Design variables", "variable", "before", "optimum", "min", "max", "place between the bounds")
-    for name, bound in result.bounds.items():
-        unit = PARAMETERS[name].unit
-        before = result.before[name]
-        shown = "not given" if before is None else format_quantity(before, unit)
-        cells = [format_quantity(value, unit) for value in (bound.value, bound.min, bound.max)]
-        table.add_row(name, shown, *cells, f"{100 * bound.position:.1f} %")
-    return table
-
-
-def _fixed(result: "Optimum") -> Table:
-    table = titled("Modes that no design variable moves", "motion", "decay rate [1/s]", "frequency [Hz]")
-    for name, roots in result.fixed_modes.items():
-        for s in roots:
-            if s.imag >= 0:
-                table.add_row(name, f"{-s.real:.4f}", f"{s.imag / (2 * pi):.3f}")
-    return table
-
-
 def export_tables(result: "Export") -> RenderableType:
     """Return the table of an `Export`."""
     rows = [("functions", ", ".join(result.functions)), ("files", ", ".join(result.files))]
-    return facts(f"Written to {result.folder}", [*rows, ("what they take and give", "manifest.json")])
+    rows += [("condition", condition_in_words(result.condition)), ("what they take and give", "manifest.json")]
+    return facts(f"Written to {result.folder}", rows)
 
 
 def rendered(table: RenderableType) -> str:

@@ -7,6 +7,7 @@ class checks itself.
 
 import reprlib
 from collections.abc import Callable, Collection, Iterator, Mapping
+from concurrent.futures import Executor
 from contextlib import suppress
 from functools import cache, wraps
 from inspect import Parameter, Signature, signature
@@ -189,3 +190,13 @@ def _words(hint: Any) -> Iterator[str]:
     else:
         name = getattr(kind, "__name__", str(kind))
         yield _WORDS.get(kind, f"a {name}{_SOURCES.get(name, '')}")
+
+
+def as_executor(executor: Any) -> Executor:
+    """Return an executor: itself, or that of a dask client."""
+    if hasattr(executor, "get_executor"):
+        found: Executor = executor.get_executor(pure=False)
+        return found
+    if not hasattr(executor, "submit"):
+        raise ProblemError(f"executor: {executor!r} is neither a concurrent.futures.Executor nor a dask Client")
+    return executor  # type: ignore[no-any-return]

@@ -6,16 +6,12 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
-from typing import Any
 
 from .condition import CREEP as CREEP
 from .condition import TOLERANCE, Condition, Load
 from .condition import applied as applied
-from .diagnostics import ProblemError
 from .problem import Problem
 from .running import SpeedRange
-
-MOST_LISTED = 10_000  # combinations, ends of ranges among them
 
 
 @dataclass(frozen=True)
@@ -50,6 +46,18 @@ class ConditionSet:
             ends["v"] = SpeedRange(min=low, max=high, steps=self.steps).values
         return self._with(ends)
 
+    def grid(self, most: int, each: int = 9) -> tuple[Condition, ...]:
+        """Return the corners and conditions between them: `each` values of every range, of the speed its `steps`.
+
+        Fewer of each where that would make more than `most` conditions, down to the corners.
+        """
+        counts = {name: self.steps if name == "v" else each for name, _ in self.ranges}
+        while len(self.lists) * prod(counts.values()) > most and max(counts.values()) > 2:
+            largest = max(counts, key=lambda name: counts[name])
+            counts[largest] -= 1
+        ends = dict(self.ranges)
+        return self._with({name: _spaced(*ends[name], n) for name, n in counts.items()})
+
     def _with(self, values: Mapping[str, tuple[float, ...]]) -> tuple[Condition, ...]:
         combinations = [dict(zip(values, each, strict=True)) for each in product(*values.values())]
         return tuple(_speed_first(each.with_values(more)) for each in self.lists for more in combinations)
@@ -76,6 +84,11 @@ class ConditionSet:
         return len(self.lists) == 1 and not self.ranges
 
 
+def _spaced(low: float, high: float, n: int) -> tuple[float, ...]:
+    """Return values between two ends, both included."""
+    return (low, *(low + (high - low) * k / (n - 1) for k in range(1, n - 1)), high)
+
+
 def _speed_first(condition: Condition) -> Condition:
     return replace(condition, changes=tuple(sorted(condition.changes, key=lambda change: change[0] != "v")))
 
@@ -92,18 +105,9 @@ def condition_set(problem: Problem) -> ConditionSet:
     ranges |= {f"{TOLERANCE}{name}": (-share, share) for name, share in given.tolerance}
     loads: tuple[Load | None, ...] = given.loads or (None,)
     steps = speed.steps if isinstance(speed, SpeedRange) else 11
-    _check_size(lists, ranges, loads)
     combinations = [tuple(zip(lists, each, strict=True)) for each in product(*lists.values())]
     every = tuple(Condition(changes, load) for changes in combinations for load in loads)
     return ConditionSet(every, tuple(ranges.items()), steps)
-
-
-def _check_size(lists: Mapping[str, Any], ranges: Mapping[str, Any], loads: Collection[Any]) -> None:
-    size = prod(len(values) for values in lists.values()) * len(loads) * 2 ** len(ranges)
-    if size > MOST_LISTED:
-        raise ProblemError(
-            f"conditions: every combination of them, with the ends of ranges, makes {size}: at most {MOST_LISTED}"
-        )
 
 
 def conditions(problem: Problem) -> tuple[Condition, ...]:

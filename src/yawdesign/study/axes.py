@@ -9,9 +9,9 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.problem import PARAMETERS, Parameter, ProblemError, format_quantity
-from yawdesign.problem.condition import CREEP_FACTOR, Condition
+from yawdesign.problem.condition import CREEP, CREEP_FACTOR, Condition
 from yawdesign.problem.diagnostics import Mistakes
-from yawdesign.problem.running import SPEED
+from yawdesign.problem.running import CURVE, SPEED
 from yawdesign.problem.table import as_count, check_ends
 
 MOST_VALUES = 10_000_000  # on one axis
@@ -41,7 +41,9 @@ DERIVED = {
     "creep_factor": CREEP_FACTOR,
 }
 # Everything that can be an axis.
-ROWS: Mapping[str, Parameter] = {**PARAMETERS, "v": replace(SPEED, key="v"), **DERIVED}
+ROWS: Mapping[str, Parameter] = {**PARAMETERS, "v": replace(SPEED, key="v"), **DERIVED, **CURVE}
+# What else an axis sets, beside the parameter of its name.
+SETS = {"f_m": ("K_m",), "xi_m": ("C_m",), "creep_factor": CREEP}
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +53,7 @@ class Axis:
     Parameters
     ----------
     name : str
-        Key of a parameter, or ``v``, ``f_m``, ``xi_m``, ``creep_factor``.
+        Key of a parameter or of a number of the curve, or ``v``, ``f_m``, ``xi_m``, ``creep_factor``.
     unit : str
         Unit of the values, SI.
     values : ndarray

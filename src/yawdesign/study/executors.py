@@ -10,6 +10,7 @@ from signal import SIG_IGN, SIGINT, signal
 from typing import Any
 
 from yawdesign.problem import ProblemError
+from yawdesign.problem.arguments import as_executor
 from yawdesign.problem.stopping import held, let_through
 from yawdesign.study.answers import LENGTH, VERDICTS, Answers, evaluate
 from yawdesign.study.axes import applied, block
@@ -126,16 +127,6 @@ class _Handover:
         for future in list(self.waiting):
             if not future.cancel() and future.done():
                 self._take(future)
-
-
-def as_executor(executor: Any) -> Executor:
-    """Return an executor: itself, or that of a dask client."""
-    if hasattr(executor, "get_executor"):
-        found: Executor = executor.get_executor(pure=False)
-        return found
-    if not hasattr(executor, "submit"):
-        raise ProblemError(f"executor: {executor!r} is neither a concurrent.futures.Executor nor a dask Client")
-    return executor  # type: ignore[no-any-return]
 
 
 @contextmanager

@@ -13,8 +13,8 @@ from yawdesign.hunting.arrays import Array, Float
 from yawdesign.hunting.many import margins
 from yawdesign.hunting.many.measure import Measure
 from yawdesign.hunting.many.parameter_sets import ParameterSets
+from yawdesign.problem.arguments import as_executor
 from yawdesign.study.answers import evaluate
-from yawdesign.study.executors import as_executor
 from yawdesign.study.request import Question
 from yawdesign.study.samples import Draw, Indices, Uncertain, sobol_indices
 

@@ -13,13 +13,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from yawdesign.hunting.arrays import Bools, Complex, Float
-from yawdesign.hunting.eigenvalues import MARGINS, backward_error, count_undamped, motion_matrix
+from yawdesign.hunting.eigenvalues import EXACT, MARGINS, backward_error, count_undamped, motion_matrix
 from yawdesign.hunting.many import counts
 from yawdesign.hunting.many.critical_values import value_and_slope
 from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.many.tape import Tape
 from yawdesign.hunting.routh import TIME_UNIT
-from yawdesign.hunting.verdict import EXACT
 from yawdesign.vehicle.motions import Motion
 
 # Between which powers of ten the margins are looked for, [rad/s / 100 rad/s] and [-].

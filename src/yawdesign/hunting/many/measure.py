@@ -53,7 +53,7 @@ class Measure:
         """
         level = np.broadcast_to(np.asarray(level, dtype=float), sets.size)
         yes, sure = np.zeros((2, sets.size), dtype=bool)
-        for place, part in _by_zeros(self._of_case(sets)):
+        for place, part in parts_by_zeros(self._of_case(sets)):
             yes[place], sure[place] = self._exceeds(part, level[place])
         return yes, sure
 
@@ -74,8 +74,8 @@ class Measure:
         return sets.with_fault(self.case) if self.case else sets
 
 
-def _by_zeros(sets: ParameterSets) -> Iterator[tuple[Index, ParameterSets]]:
-    """Yield which sets, and these, such that a damper in series with joints has no damping in all of them or in none.
+def parts_by_zeros(sets: ParameterSets) -> Iterator[tuple[Index, ParameterSets]]:
+    """Yield places of sets, and these, such that a damper in series with joints has damping in all of them or in none.
 
     One without damping lowers the degree of the polynomial.
     """
