@@ -22,6 +22,12 @@ from yawdesign.vehicle.vehicle import Model
 
 DAMPER = {"C_s": yd.Variable(min=1e4, max=1e7)}
 CURVE = yd.table1().curve
+FILE = """
+bogie: {base: table1}
+speed: 300 km/h
+curve: {R: 300 m, L: 19 m, l: 60 m, V_r: 90 km/h, limit: 0.08}
+design: {variables: {C_s: {min: 10 kN s/m, max: 10 MN s/m}}}
+"""
 THREE = {"lambda": [0.05, 0.40], "creep_factor": [1, 0.5]}
 
 
@@ -226,7 +232,7 @@ def test_what_is_finished_is_kept(quick, monkeypatch):
 @pytest.fixture
 def file(tmp_path, quick):
     path = tmp_path / "problem.yaml"
-    with_variables(yd.table1()).to_yaml(path)
+    path.write_text(FILE, encoding="utf-8")
     return path
 
 
