@@ -1,5 +1,7 @@
 """The public names: each stands here once, for type checkers and for the package, which reads this file."""
 
+from yawdesign.damper.candidates import Choice as Choice
+from yawdesign.damper.choose import choose as choose
 from yawdesign.damper.forward import ForwardDesign as ForwardDesign
 from yawdesign.damper.forward import design as design
 from yawdesign.damper.optimise import optimise as optimise
@@ -34,6 +36,8 @@ from yawdesign.problem import load as load
 from yawdesign.problem import loads as loads
 from yawdesign.problem import schema as schema
 from yawdesign.problem import table1 as table1
+from yawdesign.problem.catalogue_file import read_catalogue as read_catalogue
+from yawdesign.problem.damper_catalogue import CatalogueDamper as CatalogueDamper
 from yawdesign.response.modes.followed_modes import FollowedModes as FollowedModes
 from yawdesign.response.modes.followed_modes import follow_modes as follow_modes
 from yawdesign.response.modes.named_modes import Modes as Modes
@@ -60,5 +64,7 @@ from yawdesign.response.track.tracks import Sinusoid as Sinusoid
 from yawdesign.study.result import Sweep as Sweep
 from yawdesign.study.sweep import IncompleteSweepError as IncompleteSweepError
 from yawdesign.study.sweep import sweep as sweep
+from yawdesign.study.uncertainty import Uncertainty as Uncertainty
+from yawdesign.study.uncertainty import uncertainty as uncertainty
 
 __version__: str

@@ -7,7 +7,9 @@ from typing import Annotated
 import typer
 
 from yawdesign.cli.answering import code_of, told
-from yawdesign.cli.designs import design, optimise, stability
+from yawdesign.cli.choices import choose
+from yawdesign.cli.designs import critical_speed, design, optimise, stability
+from yawdesign.cli.distributions import uncertainty
 from yawdesign.cli.files import check, export, new, schema
 from yawdesign.cli.responses import modes, simulate
 from yawdesign.cli.sweeps import sweep
@@ -20,7 +22,11 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in (stability, design, optimise, trade_off, sweep, simulate, modes, export, new, check, schema):
+COMMANDS = (
+    *(stability, critical_speed, design, optimise, choose, trade_off, uncertainty),
+    *(sweep, simulate, modes, export, new, check, schema),
+)
+for command in COMMANDS:
     app.command()(command)
 app.command("optimize", hidden=True)(optimise)
 

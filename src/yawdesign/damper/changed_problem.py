@@ -56,9 +56,10 @@ def _every_way(problem: Problem) -> Iterator[Way]:
         limit = float(problem.curve.limit)
         yield Way("curve.limit", "limit", limit, min(FAR * limit, CURVE["limit"].hard[1]))
         yield from _parameters(problem)
-    yield Way("speed", "speed", max(map(float, problem.speeds)), LOWEST_SEARCHED)
+    fastest = max(map(float, problem.speeds))
+    yield Way("speed", "speed", fastest, min(fastest, LOWEST_SEARCHED))
     for each in problem.requirements:
-        least = LOWEST_SEARCHED if each.measure == "critical_speed" else 0.0
+        least = min(float(each.wanted), LOWEST_SEARCHED) if each.measure == "critical_speed" else 0.0
         yield Way(f"requirements.{each.name}", "requirement", float(each.wanted), least)
     for name, variable in problem.design.variables.items():
         (lowest, highest), low, high = PARAMETERS[name].hard, float(variable.min), float(variable.max)

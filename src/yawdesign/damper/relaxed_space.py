@@ -104,7 +104,7 @@ class RelaxedSpace(Space):
         return (value, high) if self.way.name == f"design.variables.{name}.min" else (low, high)
 
     def _in_curve(self, values: Values) -> list[Values]:
-        """A larger limit is as good as an axle load that is larger by as much, eq. (13)."""
+        """Return the same; a larger limit is as good as an axle load that is larger by as much, eq. (13)."""
         found = super()._in_curve(values)
         if self.way.kind != "limit":
             return found
