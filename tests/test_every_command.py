@@ -147,6 +147,20 @@ def test_simulate(answered, independent, problem, spectrum):
     assert found["runs"][0]["spectral_abscissa"] == pytest.approx(spectrum().real.max(), rel=1e-7)
 
 
+def test_another_condition(answered, problem, spectrum):
+    """What shows one vehicle shows it under the condition that is asked for, of every kind."""
+    given = ("lambda=0.3", "creep_factor=50 %", "tolerance.K_1y=-10 %", "speed=250 km/h")
+    options = [x for each in given for x in ("--condition", each)]
+    p = problem.parameters()
+    creep = {name: 0.5 * p[name] for name in ("f_11", "f_22")}
+    s = spectrum(**{"lambda": 0.3, "K_1y": 0.9 * p["K_1y"], "v": 250 / 3.6}, **creep)
+    modes = answered("modes", *options, codes=(0, 1))["modes"]
+    roots = [complex(*mode["eigenvalue"]) for mode in modes]
+    same(roots + [x.conjugate() for x in roots if x.imag], s, 1e-7)
+    run = answered("simulate", "--duration", "1 s", *options, codes=(0, 1))["runs"][0]
+    assert run["spectral_abscissa"] == pytest.approx(s.real.max(), rel=1e-7)
+
+
 @pytest.mark.slow
 def test_export(answered, independent, problem, tmp_path):
     answered("export", "--to", str(tmp_path / "exported"))

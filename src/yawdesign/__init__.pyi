@@ -1,9 +1,14 @@
 """The public names: each stands here once, for type checkers and for the package, which reads this file."""
 
+from yawdesign.damper.candidates import Choice as Choice
+from yawdesign.damper.choose import choose as choose
 from yawdesign.damper.forward import ForwardDesign as ForwardDesign
 from yawdesign.damper.forward import design as design
 from yawdesign.damper.optimise import optimise as optimise
 from yawdesign.damper.optimum import Optimum as Optimum
+from yawdesign.damper.pareto_front import TradeOff as TradeOff
+from yawdesign.damper.trade_off import IncompleteTradeOffError as IncompleteTradeOffError
+from yawdesign.damper.trade_off import trade_off as trade_off
 from yawdesign.exports.fmu.archive import Fmu as Fmu
 from yawdesign.exports.fmu.archive import write_fmu as write_fmu
 from yawdesign.exports.functions import functions as functions
@@ -31,6 +36,8 @@ from yawdesign.problem import load as load
 from yawdesign.problem import loads as loads
 from yawdesign.problem import schema as schema
 from yawdesign.problem import table1 as table1
+from yawdesign.problem.catalogue_file import read_catalogue as read_catalogue
+from yawdesign.problem.damper_catalogue import CatalogueDamper as CatalogueDamper
 from yawdesign.response.modes.followed_modes import FollowedModes as FollowedModes
 from yawdesign.response.modes.followed_modes import follow_modes as follow_modes
 from yawdesign.response.modes.named_modes import Modes as Modes
@@ -57,5 +64,7 @@ from yawdesign.response.track.tracks import Sinusoid as Sinusoid
 from yawdesign.study.result import Sweep as Sweep
 from yawdesign.study.sweep import IncompleteSweepError as IncompleteSweepError
 from yawdesign.study.sweep import sweep as sweep
+from yawdesign.study.uncertainty import Uncertainty as Uncertainty
+from yawdesign.study.uncertainty import uncertainty as uncertainty
 
 __version__: str

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import yawdesign as yd
-from yawdesign.damper import nlp, search
+from yawdesign.damper import best_design, nlp, search
 from yawdesign.damper.design_space import Space, between, fraction, scale
 from yawdesign.hunting.many.measure import FASTEST
 from yawdesign.problem import PARAMETERS
@@ -28,11 +28,13 @@ def problem_of(bounds, *, kind="power", objective="decay_rate", **changes):
 def quick(monkeypatch):
     """Look at few designs: what must hold for every answer needs no good one."""
     optimise = import_module("yawdesign.damper.optimise")
+    for name in ("conflict", "relaxations"):
+        monkeypatch.setattr(optimise, name, lambda *_, **__: ())
     monkeypatch.setattr(search, "_blocks", lambda space, rng: [rng.random((len(space.names), 500))])
     monkeypatch.setattr(search, "STARTS", 4)
     monkeypatch.setattr(nlp, "PUSHES", nlp.PUSHES[:1])
-    monkeypatch.setattr(optimise, "TURNS", ((1, 1e-3),))
-    monkeypatch.setattr(optimise, "MOST_SEARCHES", 1)
+    monkeypatch.setattr(best_design, "TURNS", ((1, 1e-3),))
+    monkeypatch.setattr(best_design, "MOST_SEARCHES", 1)
 
 
 def assert_within(problem, result):

@@ -18,6 +18,9 @@ GOOD = (
     "{bogie: {base: table1, K_m: &k 6.3e5, C_t: 60 kN.s/m}, speed: {min: 200 km/h, max: 300 km/h, steps: 5}}",
     "bogie:\t# a tab\n  base: table1\nspeed:\t90 km/h\t# fast\ncurve: {R: 300 m, L: 19 m, l: 60 m, V_r: 90}\n"
     "title: >\n  a\n  b\n",
+    "bogie: {base: table1}\nspeed: [200 km/h, 80 m/s]\nconditions:\n  lambda: [0.05, 40 %]\n"
+    "  creep_factor: {min: 0.5, max: 1}\n  tolerance: {K_m: 10 %, C_s: 0.15}\n  load: {ta.re: {W: 120 kN}, b: {W: 0}}\n"
+    "cases: {a: {C_s: 50 %}}\nrequirements: {damping_ratio: 5 %, critical_speed: 330 km/h, cases: {decay_rate: 0.1}}\n",
 )
 
 

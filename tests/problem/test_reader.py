@@ -18,6 +18,7 @@ from yawdesign.problem.parameters import parameter_keys
 from yawdesign.problem.reader import read_text
 
 PUBLISHED = {"cooperrider-bogie", "cooperrider-vehicle", "high-speed-vehicle"}
+UNDER_CONDITIONS = {"table1-conditions", "vehicle-conditions"}
 PROBLEMS = sorted((Path(__file__).parents[2] / "problems").glob("*.yaml"))
 GOOD = """\
 title: a bogie
@@ -84,7 +85,8 @@ def test_the_shipped_problems_read_without_a_word(path):
 
 
 def test_there_are_shipped_problems():
-    assert {path.stem for path in PROBLEMS} == {"table1", "power-bogie", "trailer-bogie", "vehicle", *PUBLISHED}
+    own = {"table1", "power-bogie", "trailer-bogie", "vehicle"}
+    assert {path.stem for path in PROBLEMS} == own | UNDER_CONDITIONS | PUBLISHED
 
 
 def test_table1_writes_all_values_out_as_printed():
@@ -276,7 +278,9 @@ BROKEN = {
     "list for a mapping": (changed(17, "    C_s: [1, 2]"), [17], "expected keys and values: min, max"),
     "text for a section": ("bogie: table1\nspeed: 80\n", [1], "expected keys and values: kind, base"),
     "mapping for a number": (changed(6, "  M_b: {a: 1}"), [6], "bogie.M_b: {'a': '1'} is not a number"),
-    "list for a number": (changed(8, "speed: [80, 90]"), [8], "speed: ['80', '90'] is not a number"),
+    "list for a number": (changed(6, "  M_b: [80, 90]"), [6], "bogie.M_b: ['80', '90'] is not a number"),
+    "list of no speeds": (changed(8, "speed: []"), [8], "speed: 0 speeds: give one to 1000, or a range"),
+    "list with a mass": (changed(8, "speed: [80, 90 kg, 80]"), [8, 8], "speed.1: 90 kg is a mass, expected a speed"),
     "decimal comma": (changed(7, "  K_ds: 40,5 MN/m"), [7], "has a comma"),
     "wrong equations": (changed(2, "equations: printed"), [2], "printed is not one of: reciprocal, as-printed"),
     "wrong kind": (changed(4, "  kind: pwoer"), [4], "did you mean power?"),
@@ -297,7 +301,7 @@ BROKEN = {
         [16],
         "names no parameter",
     ),
-    "robust": (GOOD + "robust: {lambda: [0.1]}\n", [18], "not part of this version"),
+    "robust": (GOOD + "robust: {lambda: [0.1]}\n", [18], "what must hold stands under conditions"),
     "tag": (changed(6, "  M_b: !!float 7186"), [6], "tags such as"),
     "python tag": (changed(1, "title: !!python/object/apply:os.system [ls]"), [1, 1], "tags such as"),
     "merge key": (changed(6, "  <<: {M_b: 3}"), [6], "merge keys"),
@@ -379,6 +383,15 @@ def test_unusual_values_are_warnings_and_the_problem_is_read():
     ]
     assert "p.yaml:6:8: warning: bogie.M_b: 7.186 kg is unusual" in diagnostics[0].render()
     assert loads(text) == problem
+
+
+def test_each_bare_speed_of_a_list_is_doubted():
+    diagnostics = found(changed(8, "speed: [80, 250 km/h, 300]"))
+    assert [(d.severity, d.key, d.column) for d in diagnostics] == [
+        ("warning", "speed.0", 9),
+        ("warning", "speed.2", 23),
+    ]
+    assert loads(changed(8, "speed: [300 km/h, 200 km/h]")).speeds == (200 / 3.6, 300 / 3.6)
 
 
 def test_an_unusual_curve_and_speed_range():

@@ -12,7 +12,9 @@ from jsonschema import Draft202012Validator
 from ruamel.yaml import YAML
 
 from yawdesign.problem import PARAMETERS, ProblemError, parse_quantity, read, schema, starter
+from yawdesign.problem.condition import CREEP_FACTOR
 from yawdesign.problem.parameters import BOGIE, CAR_BODY, parameter_keys
+from yawdesign.problem.requirements import MEASURES
 from yawdesign.problem.running import CURVE, SPEED
 from yawdesign.problem.units import unit_names
 
@@ -67,6 +69,13 @@ SPRUNG = "K_2z: 0.6 MN/m, C_2z: 9.8 kN s/m"
         "{bogie: {base: table1}, speed: 80, cases: {a b: {C_s: 50 %, K_ds: 20 MN/m}, c: {lambda: 0.3}}}",
         "{bogie: {base: table1}, car_body: {base: huo-dai}, speed: 80, cases: {a: {leading.C_s: 0 %, K_2z: 3}}}",
         "{bogie: {base: table1}, speed: 80, design: {variables: {C_1x: {min: 1, max: 2}, M_c: {min: 3, max: 4 t}}}}",
+        "{bogie: {base: table1}, speed: [200 km/h, 83.3]}",
+        "{bogie: {base: table1}, speed: 80, conditions: {lambda: [0.05, 40 %], creep_factor: {min: 0.5, max: 1}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {lambda: 0.3, K_2x: {min: 1 MN/m, max: 2e6}, creep_factor: 1}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {tolerance: {K_m: 10 %, C_s: 0.2, K_2x: 99.5 %, C_t: '0.5'}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {load: {a b: {W: 120 kN}, c: {W: 2e5, M_c: 40 t}}}}",
+        "{bogie: {base: table1}, speed: 80, requirements: {damping_ratio: 5 %, decay_rate: 1, critical_speed: 90}}",
+        "{bogie: {base: table1}, speed: 80, cases: {a: {C_s: 0 %}}, requirements: {cases: {decay_rate: 0.5 1/s}}}",
     ],
 )
 def test_right_problems_fit(text):
@@ -120,6 +129,35 @@ def test_right_problems_fit(text):
         "{bogie: {base: table1}, speed: 80, cases: {a: {C_s: -50 %}}}",
         "{bogie: {base: table1}, speed: 80, cases: {a: {C_s: 50 kg}}}",
         "{bogie: {base: table1}, speed: 80, design: {variables: {K_ds: {min: 1, max: rigid}}}}",
+        "{bogie: {base: table1}, speed: []}",
+        "{bogie: {base: table1}, speed: [80, 3 kg]}",
+        "{bogie: {base: table1}, speed: 80, conditions: [0.1]}",
+        "{bogie: {base: table1}, speed: 80, conditions: {conicity: [0.1]}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {lambda: []}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {lambda: [0.1, 20]}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {lambda: [0.1, 3 km]}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {lambda: {min: 0.1}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {creep_factor: {min: 0.1}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {creep_factor: {min: 0.1, max: 1, step: 3}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {creep_factor: [0]}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {K_ds: [rigid]}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {C_s: [1 MN s/m]}}",
+        "{bogie: {base: table1, kind: trailer}, speed: 80, conditions: {K_m: [1 MN/m]}}",
+        "{bogie: {base: table1, kind: trailer}, speed: 80, conditions: {tolerance: {K_m: 10 %}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {tolerance: {K_m: 150 %}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {tolerance: {K_m: 100 %}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {tolerance: {K_m: 0 %}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {tolerance: {K_m: -5 %}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {tolerance: {K_m: 5 kN}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {tolerance: {K_mm: 5 %}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {load: {a: {}}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {load: {a: {C_s: 3}}}}",
+        "{bogie: {base: table1}, speed: 80, conditions: {load: {a: {W: 120 kg}}}}",
+        "{bogie: {base: table1}, speed: 80, requirements: {damping_ratio: 5 km/h}}",
+        "{bogie: {base: table1}, speed: 80, requirements: {critical_speed: 5 %}}",
+        "{bogie: {base: table1}, speed: 80, requirements: {damping: 5 %}}",
+        "{bogie: {base: table1}, speed: 80, requirements: {cases: {decay_rate: 0}}}",
+        "{bogie: {base: table1}, speed: 80, cases: {a: {C_s: 0 %}}, requirements: {cases: {decay_rate: 3 kg}}}",
     ],
 )
 def test_broken_problems_do_not_fit(text):
@@ -227,7 +265,9 @@ def row_of_the_page(row):
 
 
 @pytest.mark.parametrize(
-    "row", [*BOGIE.values(), *CAR_BODY.values(), *CURVE.values(), SPEED], ids=lambda row: row.meaning
+    "row",
+    [*BOGIE.values(), *CAR_BODY.values(), *CURVE.values(), SPEED, CREEP_FACTOR, *MEASURES.values()],
+    ids=lambda row: row.meaning,
 )
 def test_the_page_has_the_row_of_every_parameter(row):
     assert row_of_the_page(row) in PAGE

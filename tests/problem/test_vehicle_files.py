@@ -265,12 +265,16 @@ def test_the_starter_with_a_car_body_reads_without_a_word(kind):
 def test_what_a_starter_has_as_comments_reads_without_a_word(kind, car_body):
     text = starter(kind, car_body=car_body)
     written = re.sub(r"^  # (?!base|creep)([\w]+: )", r"  \1", text, flags=re.MULTILINE)
-    written = re.sub(r"^# (cases:|  .*\{.*%.*)", r"\1", written, flags=re.MULTILINE)
+    written = re.sub(r"^# ((conditions|requirements|cases):|  \w.*)", r"\1", written, flags=re.MULTILINE)
     assert found(written) == ()
     problem = loads(written)
     assert problem.flags == ("no gravitational stiffness",)
     assert {"J_wy", "I_b", "h_2t", "K_d1x", "C_2z"} <= set(problem.keys)
     assert len(problem.cases) == (3 if car_body else 1)
+    assert problem.conditions.combinations == 5 * 2 * 2**3
+    assert len(problem.requirements) == 3
+    for speeds in re.findall(r"^# (speed: .*)", text, flags=re.MULTILINE):
+        assert len(loads(text.replace("\nspeed: 300 km/h", f"\n{speeds}")).speeds) in (2, 11)
 
 
 def test_the_shipped_vehicle_is_the_preset_under_the_curve_and_survives_its_faults():

@@ -75,7 +75,7 @@ def test_designs(random_bogies, vehicle_model, speed):
         name: x for name, x in p.items() if not (speed and name == "v")
     })  # fmt: skip
     assert np.array_equal(short.columns["C_sl"], answers.columns["C_sl"], equal_nan=True)
-    for k, problem in enumerate(problems(p, model, **({"speed": speed} if speed else {}))):
+    for k, problem in enumerate(problems(p, model, **({"speed": speed.values} if speed else {}))):
         expected = yd.design(problem)
         assert answers.columns["status"][k] == expected.status
         assert answers.columns["stable"][k] == expected.stable

@@ -184,7 +184,7 @@ def test_what_a_question_needs():
         assert "no axis" in mistakes(of=of, C_s=[1e5, 1e6])["C_s"]
     assert "no axis" in mistakes(of="critical_speed", v=[70, 80])["v"]
     between = yd.table1().replace(speed=yd.SpeedRange(min=60, max=90))
-    assert "one speed, or an axis v" in mistakes(problem=between, lambda_=[0.1, 0.2])["speed"]
+    assert "differ in v" in mistakes(problem=between, lambda_=[0.1, 0.2])["speed"]
     assert asked(problem=between, v=[70, 80]).size == 2
 
 

@@ -26,6 +26,7 @@ REFUSED = (
     "is no axis of",
     "contradicts the axis",
     "cannot be held while",
+    "is a number of the curve",
 )
 
 
@@ -38,8 +39,8 @@ def allowed(kind):
 
 def usual(kind, name):
     """Return two values of an axis around that of the problem."""
-    value = {"v": 80.0, "f_m": 3.0, "xi_m": 0.3, "creep_factor": 0.9}.get(name)
-    value = float(BOGIES[kind].parameters()[name]) if value is None else value
+    known = {"v": 80.0, "f_m": 3.0, "xi_m": 0.3, "creep_factor": 0.9, **vars(yd.table1(kind).curve)}
+    value = float(known[name] if name in known else BOGIES[kind].parameters()[name])
     return [value, 1.01 * value]
 
 

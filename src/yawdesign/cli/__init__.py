@@ -7,10 +7,13 @@ from typing import Annotated
 import typer
 
 from yawdesign.cli.answering import code_of, told
-from yawdesign.cli.designs import design, optimise, stability
+from yawdesign.cli.choices import choose
+from yawdesign.cli.designs import critical_speed, design, optimise, stability
+from yawdesign.cli.distributions import uncertainty
 from yawdesign.cli.files import check, export, new, schema
 from yawdesign.cli.responses import modes, simulate
 from yawdesign.cli.sweeps import sweep
+from yawdesign.cli.trade_offs import trade_off
 from yawdesign.output.streams import ANSWER, discard, open_streams, tell
 
 app = typer.Typer(
@@ -19,7 +22,11 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-for command in (stability, design, optimise, sweep, simulate, modes, export, new, check, schema):
+COMMANDS = (
+    *(stability, critical_speed, design, optimise, choose, trade_off, uncertainty),
+    *(sweep, simulate, modes, export, new, check, schema),
+)
+for command in COMMANDS:
     app.command()(command)
 app.command("optimize", hidden=True)(optimise)
 

@@ -22,9 +22,13 @@ DONE, NOTHING_FEASIBLE, BAD_INPUT, SOLVER_FAILED, STOPPED = 0, 1, 2, 3, 128  # 1
 # What makes the tables of which kind of result, as module and function.
 TABLES_BY = {
     "Stability": ("yawdesign.output.tables", "stability_tables"),
+    "CriticalSpeeds": ("yawdesign.output.critical_speed_tables", "critical_speed_tables"),
     "ForwardDesign": ("yawdesign.output.tables", "design_tables"),
     "Optimum": ("yawdesign.output.optimum_tables", "optimum_tables"),
+    "Choice": ("yawdesign.output.choice_tables", "choice_tables"),
+    "TradeOff": ("yawdesign.output.trade_off_tables", "trade_off_tables"),
     "Sweep": ("yawdesign.output.sweep_tables", "sweep_tables"),
+    "Uncertainty": ("yawdesign.output.uncertainty_tables", "uncertainty_tables"),
     "Simulation": ("yawdesign.output.response_tables", "simulation_tables"),
     "Modes": ("yawdesign.output.mode_tables", "modes_tables"),
     "FollowedModes": ("yawdesign.output.mode_tables", "followed_tables"),

@@ -1,7 +1,7 @@
 """Commands that answer a problem: is it stable, which damping is possible, which is best."""
 
 from importlib import import_module
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -20,20 +20,32 @@ from yawdesign.cli.answering import (
 
 def stability(file: ProblemFile, as_json: AsJson = False) -> None:
     """Tell whether bogie or vehicle is stable with its C_s, with all modes and margins, and with which faults."""
-    _answer(file, as_json, "yawdesign.hunting.verdict", "stability")
+    result = _answer(file, as_json, "yawdesign.hunting.stability", "stability")
+    raise ended(checked=result.checked, feasible=result.stable and _met(result))
 
 
 def design(file: ProblemFile, as_json: AsJson = False) -> None:
     """Find the stable yaw damping, the curve's limit and the golden section between them."""
-    _answer(file, as_json, "yawdesign.damper.forward", "design")
+    result = _answer(file, as_json, "yawdesign.damper.forward", "design")
+    raise ended(checked=result.checked, feasible=result.stable and _met(result))
 
 
-def _answer(file: str, as_json: bool, home: str, function: str) -> None:
+def critical_speed(file: ProblemFile, as_json: AsJson = False) -> None:
+    """Tell up to which speed bogie or vehicle is stable with its C_s under all conditions, whatever its speeds are."""
+    result = _answer(file, as_json, "yawdesign.hunting.critical_speed", "critical_speed")
+    raise ended(checked=result.checked, feasible=result.stable_up_to != 0 and _met(result))
+
+
+def _answer(file: str, as_json: bool, home: str, function: str) -> Any:
     with mistakes_told():
         problem = read_problem(file)
         result = getattr(import_module(home), function)(problem)
         show(result, as_json)
-    raise ended(checked=result.checked, feasible=result.stable)
+    return result
+
+
+def _met(result: Any) -> bool:
+    return all(each.met for each in result.requirements)
 
 
 def optimise(

@@ -6,7 +6,14 @@ from typing import Annotated
 
 import typer
 
-from yawdesign.cli.answering import AsJson, ProblemFile, mistakes_told, read_problem, show
+from yawdesign.cli.answering import (
+    AsJson,
+    ProblemFile,
+    mistakes_told,
+    read_problem,
+    show,
+)
+from yawdesign.cli.asked_condition import AskedCondition, asked_condition, tell_condition
 from yawdesign.output.streams import tell, write_answer
 
 
@@ -24,16 +31,20 @@ def export(
         str, typer.Option(metavar="NAME", help="What C files and symbols begin with; another for each export.")
     ] = "yawdesign",
     force: Annotated[bool, typer.Option("--force", help="Replace the files of an earlier export.")] = False,
+    condition: AskedCondition = None,
     as_json: AsJson = False,
 ) -> None:
     """Write the model as functions for C, MATLAB and CasADi, with a manifest of their inputs and outputs."""
     with mistakes_told():
-        problem = read_problem(file)
+        under, problem = asked_condition(condition), read_problem(file)
         from yawdesign.exports.write import export as write
 
-        result = write(problem, to, inputs=inputs, only=only, formats=formats, prefix=prefix, force=force)
+        result = write(
+            problem, to, inputs=inputs, only=only, formats=formats, prefix=prefix, force=force, condition=under
+        )
         for note in result.notes:
             tell(f"note: {note}")
+        tell_condition(problem, result)
         show(result, as_json)
 
 

@@ -4,7 +4,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from yawdesign.cli.answering import AsJson, Force, ProblemFile, ended, mistakes_told, progress_shown, read_problem, show
+from yawdesign.cli.answering import (
+    AsJson,
+    Force,
+    ProblemFile,
+    ended,
+    mistakes_told,
+    progress_shown,
+    read_problem,
+    show,
+)
+from yawdesign.cli.asked_condition import AskedCondition, asked_condition, tell_condition
 
 if TYPE_CHECKING:
     from yawdesign.problem import Problem
@@ -41,6 +51,7 @@ def simulate(
         list[str] | None,
         typer.Option(help="What --plot draws; y_b, or the car body's accelerations. May be repeated, in one unit."),
     ] = None,
+    condition: AskedCondition = None,
     force: Force = False,
 ) -> None:
     """Run the vehicle over a track: RMS, peaks, whether amplitudes settle, and what its yaw damper has to do."""
@@ -52,7 +63,7 @@ def simulate(
         targets = (*tables, Target("--plot", plot, pictures.PICTURES, force))
         to_csv, to_npz, to_plot = checked_targets(targets, [file, track])
         pictures.check_pictures(to_plot)
-        problem = read_problem(file)
+        under, problem = asked_condition(condition), read_problem(file)
         _check_response(problem, response, plot)
         with progress_shown() as progress:
             from yawdesign.response.run.simulate import simulate as run
@@ -69,6 +80,7 @@ def simulate(
                 offset=offset,
                 band=band,
                 seed=seed,
+                condition=under,
                 progress=progress,
             )
         if to_plot:
@@ -77,6 +89,7 @@ def simulate(
             histories.write_csv(result, to_csv, replace=force)
         if to_npz:
             histories.write_npz(result, to_npz, replace=force)
+        tell_condition(problem, result)
         show(result, as_json)
     raise ended(checked=result.checked, feasible=result.settles)
 
@@ -111,6 +124,7 @@ def modes(
     to: Annotated[
         str | None, typer.Option(metavar="FILE", help="Show the mode in motion: a .gif or .svg file.")
     ] = None,
+    condition: AskedCondition = None,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
@@ -123,15 +137,15 @@ def modes(
         to_plot, to_animate = checked_targets(drawn, [file])
         pictures.check_pictures(to_plot, to_animate)
         _check_modes(over=over, plot=plot, of=of, animate=animate, to=to)
-        problem = read_problem(file)
+        under, problem = asked_condition(condition), read_problem(file)
         if over:
             from yawdesign.response.modes.followed_modes import follow_modes
 
-            result: Any = follow_modes(problem, **_axis(over))
+            result: Any = follow_modes(problem, condition=under, **_axis(over))
         else:
             from yawdesign.response.modes.named_modes import modes as all_modes
 
-            result = all_modes(problem)
+            result = all_modes(problem, condition=under)
         if to_plot:
             options: dict[str, Any] = {"of": of or "root_locus"} if over else {"mode": animate or None}
             pictures.write_picture(plots.plot(result, **options), to_plot, replace=force)
@@ -139,6 +153,7 @@ def modes(
             from yawdesign.output.animation import animate as write_animation
 
             write_animation(result, to_animate, mode=animate or None, replace=force)
+        tell_condition(problem, result)
         show(result, as_json)
     raise ended(checked=result.checked, feasible=bool(over) or result.stable)
 

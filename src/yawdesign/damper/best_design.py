@@ -4,7 +4,7 @@ Of ranges the corners are known first. The worst condition of the best design is
 the best design is looked for anew, until none is worse; then everything is searched once more with all that are known.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -26,11 +26,17 @@ MOST_FACTORED = 30  # degree of polynomials; with that of a vehicle no start of 
 MOST_ROUNDS = 60  # in which conditions are added
 POOL = 5  # points that are refined anew when conditions are added
 
+Turns = Sequence[tuple[int, float]]
 Map = Callable[..., Any]  # as the built-in map: an executor's spreads the searches
 
 
 def best_design(
-    space: Space, seed: int, options: Mapping[str, Any], progress: Progress, spread: Map = map
+    space: Space,
+    seed: int,
+    options: Mapping[str, Any],
+    progress: Progress,
+    spread: Map = map,
+    turns: Turns = TURNS,
 ) -> tuple[Space, Float]:
     """Return the best point of a design space, and the space with all conditions that decide it.
 
@@ -48,10 +54,14 @@ def best_design(
         Called with a text and the share that is done.
     spread : callable, optional
         Like `map`; it may compute in other processes.
+    turns : sequence of (int, float), optional
+        How often the NLP and a refinement follow each other: the number of starts and the radius of each turn.
     """
     if not space.demands:
-        return _best_of_all(space, seed, options, progress, spread)
-    free, x = _best_of_all(replace(space, demanding=False, known=space.known[:1]), seed, options, progress, spread)
+        return _best_of_all(space, seed, options, progress, spread, turns)
+    free, x = _best_of_all(
+        replace(space, demanding=False, known=space.known[:1]), seed, options, progress, spread, turns
+    )
     asked: Space | None = replace(free, demanding=True, known=(free.conditions, *space.known[1:]))
     while asked is not None and asked.meets(x):
         space, asked = asked, asked.with_worst(x)
@@ -60,11 +70,11 @@ def best_design(
     values = asked.values(x)
     anchor = {name: float(np.squeeze(values[name])) for name in asked.names}
     known = replace(asked, anchors_given=(*asked.anchors_given, anchor))
-    return _best_of_all(known, seed, options, progress, spread)
+    return _best_of_all(known, seed, options, progress, spread, turns)
 
 
 def _best_of_all(
-    space: Space, seed: int, options: Mapping[str, Any], progress: Progress, spread: Map = map
+    space: Space, seed: int, options: Mapping[str, Any], progress: Progress, spread: Map, turns: Turns
 ) -> tuple[Space, Float]:
     pool = searched(space, seed, progress, spread)
     x, at_search, polished = pool[:, 0], space, False
@@ -81,7 +91,7 @@ def _best_of_all(
             if at_search is not space:
                 pool = np.concatenate([x[:, None], searched(space, seed, progress, spread)], axis=1)
                 at_search = space
-            x, polished = _best(space, pool, seed, options, progress), True
+            x, polished = _best(space, pool, seed, options, progress, turns), True
     return space, x
 
 
@@ -114,7 +124,7 @@ def _search(space: Space, seed: int) -> Float:
     return search(space, seed, lambda text, part: None)
 
 
-def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progress: Progress) -> Float:
+def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progress: Progress, turns: Turns) -> Float:
     """Return the best point after IPOPT and refinement in turn: each leaves the ridges on which the other stops."""
     rng, margin, improvers = np.random.default_rng(seed), space.margins_at(x), _improvers(space, options)
     order = distinct(x, margin, np.full(len(margin), APART))  # several searches find the same
@@ -122,8 +132,8 @@ def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progres
     # Local optima multiply with the variables; models come from farther, and take longer.
     tried: set[bytes] = set()
     more = 1 if isinstance(improvers[0], LocalImprover) else searches(space)
-    for turn, (starts, radius) in enumerate(TURNS):
-        progress("solving the NLP", turn / len(TURNS))
+    for turn, (starts, radius) in enumerate(turns):
+        progress("solving the NLP", turn / len(turns))
         starts = min(starts * more, x.shape[1])
         chosen = [(x[:, k], float(margin[k])) for k in range(starts) if x[:, k].tobytes() not in tried]
         tried |= {start.tobytes() for start, _ in chosen}

@@ -125,5 +125,5 @@ def together(critical: Float, unstable_roots: Float) -> Crossings:
     gap = ends > starts
     values = np.stack([starts[gap], ends[gap]], axis=1).ravel()
     values = values[(values > 0) & np.isfinite(values)]
-    first = 0 if gap[0] else 1
-    return values[None], (np.arange(len(values) + 1)[None] + first) % 2
+    counts = (np.arange(len(values) + 1.0) + (0 if gap[0] else 1)) % 2
+    return values[None], counts[None]

@@ -7,13 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from yawdesign.damper.curving import curving_conditions, largest_resistance, least_curving_limit
+from yawdesign.damper.curving import ENOUGH, curving_conditions, excess, largest_resistance, least_curving_limit
 from yawdesign.damper.single_bogie import CONICITIES, SingleBogie, of_bogie, partings
 from yawdesign.damper.stable_intervals import ConditionLookedAt, StableUnderAll, stable_under_all
 from yawdesign.damper.status import Status
+from yawdesign.hunting.all_conditions import case_verdicts
 from yawdesign.hunting.critical_damping import CriticalValue, Interval
-from yawdesign.hunting.scope import scope
+from yawdesign.hunting.requirements import requirement_verdicts
+from yawdesign.hunting.scope import conditions_told, scope
 from yawdesign.hunting.sensitivity import sensitivity
+from yawdesign.hunting.verdict import CaseVerdict, RequirementVerdict
 from yawdesign.problem import Curve, Problem
 from yawdesign.problem.conditions import ConditionSet, condition_set
 from yawdesign.problem.result import Result
@@ -73,10 +76,10 @@ class ForwardDesign(Result):
     worst_condition : mapping
         The condition that sets C_sl, as in `Critical`; empty where none does, since every lower C_s is stable.
     searched : str
-        How the worst conditions inside ranges were looked for; empty without ranges.
-    requirements : tuple
+        Under which conditions this holds, and how the worst ones were found.
+    requirements : tuple of RequirementVerdict
         What must be reached, and whether this C_s does; empty without a C_s.
-    cases : tuple
+    cases : tuple of CaseVerdict
         The stability with each fault; empty without a C_s.
     single_bogie : SingleBogie or None
         For a vehicle with a car body: what one of its bogies alone would have answered.
@@ -98,8 +101,8 @@ class ForwardDesign(Result):
     checked: bool
     worst_condition: Mapping[str, Any] = field(default_factory=dict)
     searched: str = ""
-    requirements: tuple[Any, ...] = ()
-    cases: tuple[Any, ...] = ()
+    requirements: tuple[RequirementVerdict, ...] = ()
+    cases: tuple[CaseVerdict, ...] = ()
     single_bogie: SingleBogie | None = None
     scope: str = ""
 
@@ -119,7 +122,14 @@ def design(problem: Problem) -> ForwardDesign:
     >>> round(result.C_sl, 3), round(result.C_su, 3), round(result.C_s)
     (90702.89, 2593442.982, 1046750)
     """
-    return forward_design(Model.of(problem), problem.parameters(), condition_set(problem), problem.curve)
+    p = problem.parameters()
+    found = forward_design(Model.of(problem), p, condition_set(problem), problem.curve)
+    if found.C_s is None:
+        return found
+    chosen = {**p, "C_s": found.C_s}
+    requirements, cases = requirement_verdicts(problem, chosen), case_verdicts(problem, chosen)
+    checked = all(x.checked for x in requirements) and all(x.checked for x in cases)
+    return replace(found, requirements=requirements, cases=cases, checked=found.checked and checked)
 
 
 def forward_design(model: Model, p: Mapping[str, Any], conditions: ConditionSet, curve: Curve | None) -> ForwardDesign:
@@ -174,16 +184,28 @@ def _forward_design(
         C_su=upper,
         C_s=C_s,
         status=status,
-        message=status.message,
+        message=status.told(_excess(status, C_sl, designed.p, conditions, curve)),
         stable=C_s is not None,
         rotational_resistance=resisted or None,
         sensitivity=slopes,
         load=None if curve is None else curve.load,
         checked=checked,
         worst_condition=worst,
-        searched=_searched(conditions),
+        searched=conditions_told(conditions, designed.p),
         scope=scope([designed.under(condition) for condition in conditions.corners]),
     )
+
+
+def _excess(
+    status: Status, C_sl: float | None, p: Mapping[str, Any], conditions: ConditionSet, curve: Curve | None
+) -> str:
+    """Return in words what the curve's limit is short of, where that is why there is no design."""
+    if curve is None or status not in (Status.INFEASIBLE, Status.INFEASIBLE_IN_CURVE):
+        return ""
+    # Another suspension has another C_sl; the limit and the radius have no part in it.
+    C_s, given = (0.0, ENOUGH) if status == Status.INFEASIBLE_IN_CURVE else (C_sl, ("limit", "R"))
+    each = [condition.applied({**p, "C_s": C_s}) for condition in curving_conditions(conditions)]
+    return excess(each, ("C_s",), curve, given)
 
 
 def _told(x: CriticalValue, one: ConditionLookedAt) -> Critical:
@@ -197,8 +219,3 @@ def _bounding(known: StableUnderAll, C_sl: float | None) -> tuple[dict[str, Any]
         return {}, {}
     one, x = found
     return one.condition.described, sensitivity(one.vehicle, x.C_s * one.condition.damping_factor, x.omega)
-
-
-def _searched(conditions: ConditionSet) -> str:
-    names = ", ".join("speed" if name == "v" else name for name, _ in conditions.ranges)
-    return f"inside {names}: no worse condition was found by a search, which is no proof" if names else ""

@@ -2,12 +2,14 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from yawdesign.damper.best_design import Map, best_design
 from yawdesign.damper.capping import GIVEN_AWAY, CappingMode, at_design, capping_modes, names_of, sensitivity
+from yawdesign.damper.catalogue_optimum import best_of_catalogue
 from yawdesign.damper.curving import excess, largest_resistance
 from yawdesign.damper.design_space import MISSED, Space, fraction, scale
 from yawdesign.damper.forward import ForwardDesign, design, forward_design
@@ -59,6 +61,10 @@ def optimise(
         If C_s is neither given nor a design variable.
     """
     seed = as_seed(seed) or 0
+    if problem.design.catalogue:
+        alone = partial(optimise, seed=seed, options=options)
+        damper, best = best_of_catalogue(problem, alone, executor=executor, progress=progress)
+        return replace(best, damper=damper.name)
     spread = map if executor is None else as_executor(executor).map
     found = _optimum(problem, seed, options or {}, progress, spread)
     if found.status not in (Status.UNSTABLE, Status.NO_FEASIBLE_DESIGN):
@@ -182,7 +188,7 @@ def _nothing(space: Space, curve: Curve) -> Optimum:
         margin=None,
         worst_condition={},
         active=("rotational_resistance",),
-        message=Status.NO_FEASIBLE_DESIGN.told(excess(values, space.names, curve)),
+        message=Status.NO_FEASIBLE_DESIGN.told(excess(space.in_curve(values), space.names, curve)),
         stable=False,
         rotational_resistance=None,
         bounds={},

@@ -103,9 +103,9 @@ class RelaxedSpace(Space):
             return low, value
         return (value, high) if self.way.name == f"design.variables.{name}.min" else (low, high)
 
-    def _in_curve(self, values: Values) -> list[Values]:
-        """Return the same parameters; a larger limit is as good as an axle load larger by as much, eq. (13)."""
-        found = super()._in_curve(values)
+    def in_curve(self, values: Values) -> list[Values]:
+        """Return the same; a larger limit is as good as an axle load that is larger by as much, eq. (13)."""
+        found = super().in_curve(values)
         if self.way.kind != "limit":
             return found
         more = values.get(self.way.name, self.way.now) / self.way.now

@@ -135,7 +135,7 @@ class StableUnderAll:
     def decision(self) -> Decision:
         """The forward design between the critical values of all conditions."""
         crossings = [one.crossings for one in self.each] + [x.crossings for x in self._others]
-        steady = all(one.others_stable for one in (*self.each, *self._others))
+        steady = all(one.others_stable for one in self.each) and all(x.others_stable for x in self._others)
         return decide(crossings, np.array([self.most]), np.array([steady]))
 
     @property

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from yawdesign.exports.functions import Documented, SelfTest
 from yawdesign.problem import Problem, ProblemError
@@ -71,11 +72,13 @@ class FileContents:
     Parameters
     ----------
     problem : Problem
-        Where they come from.
+        Where they come from, with the condition in its values.
     functions : mapping name -> Documented
         The functions.
     tests : mapping name -> SelfTest or None
         Their self-test vectors.
+    condition : mapping
+        As results have it.
     names : ExportNames
         Of the C files and their symbols.
     """
@@ -83,6 +86,7 @@ class FileContents:
     problem: Problem
     functions: Mapping[str, Documented]
     tests: Mapping[str, SelfTest | None]
+    condition: Mapping[str, Any]
     names: ExportNames = field(default_factory=ExportNames)
 
 

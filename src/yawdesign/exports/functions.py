@@ -12,6 +12,7 @@ import numpy as np
 from yawdesign.exports.builders import BUILDERS
 from yawdesign.exports.parametric_model import ParametricModel
 from yawdesign.exports.symbolic_function import Port, SymbolicFunction
+from yawdesign.hunting.chosen_condition import AS_WRITTEN, Asked, Chosen, chosen
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, suggestion
 from yawdesign.problem.result import plain
@@ -41,6 +42,9 @@ class Documented:
         In the order of the function.
     baked : mapping name -> float
         Parameters that are numbers in it, SI.
+    condition : mapping
+        Whose values these are: ``values`` ("as written", "worst" or "given"), ``speed`` [m/s] if there is one, and
+        what else is not as written, in SI units.
     """
 
     function: ca.Function
@@ -48,6 +52,7 @@ class Documented:
     inputs: tuple[Port, ...]
     outputs: tuple[Port, ...]
     baked: Mapping[str, float]
+    condition: Mapping[str, Any]
 
 
 class Functions(Mapping[str, ca.Function]):
@@ -77,10 +82,16 @@ class Functions(Mapping[str, ca.Function]):
         return len(self._documented)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return meaning, inputs, outputs and baked values of each function as plain data."""
+        """Return meaning, inputs, outputs, baked values and their condition of each function as plain data."""
         return {
             name: plain(
-                {"meaning": f.meaning, "inputs": _ports(f.inputs), "outputs": _ports(f.outputs), "baked": f.baked}
+                {
+                    "meaning": f.meaning,
+                    "inputs": _ports(f.inputs),
+                    "outputs": _ports(f.outputs),
+                    "baked": f.baked,
+                    "condition": f.condition,
+                }
             )
             for name, f in self._documented.items()
         }
@@ -102,7 +113,11 @@ def _lines(name: str, f: Documented) -> Iterator[str]:
 
 
 def functions(
-    problem: Problem, inputs: Collection[str] | None = None, only: Collection[str] | None = None
+    problem: Problem,
+    inputs: Collection[str] | None = None,
+    only: Collection[str] | None = None,
+    *,
+    condition: Asked = AS_WRITTEN,
 ) -> Functions:
     """Return the functions of a problem as CasADi Functions with named inputs and outputs.
 
@@ -116,6 +131,9 @@ def functions(
     only : collection of str, optional
         Names of the functions; all if not given (without a curve, or with an axle load that is 0 and no input, all but
         ``rotational_resistance``).
+    condition : str or mapping
+        ``"as written"`` (default), ``"worst"`` of all conditions, or values such as ``{"lambda": 0.4, "creep_factor":
+        0.5, "speed": "330 km/h", "load": "laden", "tolerance.K_m": "-10 %"}``: the others stay as written.
 
     Returns
     -------
@@ -137,8 +155,14 @@ def functions(
     >>> round(float(f(v=350 / 3.6, C_s_start=2e5, omega_start=22)["C_sl"]), 2)
     255130.52
     """
-    parametric = ParametricModel.of(problem, None if inputs is None else listed(inputs))
-    return Functions({name: _documented(name, parametric) for name in _wanted(only, parametric)})
+    return functions_of(chosen(problem, condition), inputs, only)
+
+
+def functions_of(asked: Chosen, inputs: Collection[str] | None, only: Collection[str] | None) -> Functions:
+    """Return the functions of a problem under a condition. Other parameters as in `functions`."""
+    parametric = ParametricModel.of(asked.problem, None if inputs is None else listed(inputs))
+    condition = asked.described(parametric.values["v"])
+    return Functions({name: _documented(name, parametric, condition) for name in _wanted(only, parametric)})
 
 
 def listed(names: Collection[str]) -> tuple[str, ...]:
@@ -161,7 +185,7 @@ def _wanted(only: Collection[str] | None, parametric: ParametricModel) -> tuple[
     return tuple(name for name in BUILDERS if name in names)
 
 
-def _documented(name: str, parametric: ParametricModel) -> Documented:
+def _documented(name: str, parametric: ParametricModel, condition: Mapping[str, Any]) -> Documented:
     f, build = SymbolicFunction(parametric, ca.MX if name in ROOTFINDING else ca.SX), BUILDERS[name]
     build(f)
     return Documented(
@@ -170,6 +194,7 @@ def _documented(name: str, parametric: ParametricModel) -> Documented:
         inputs=tuple(port for port, _ in f.inputs),
         outputs=tuple(port for port, _ in f.outputs),
         baked=f.baked,
+        condition=condition,
     )
 
 

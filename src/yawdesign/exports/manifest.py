@@ -32,6 +32,7 @@ def write_manifest(contents: FileContents, files: Sequence[str], notes: Sequence
         "kind": contents.problem.bogie.kind,
         "equations": contents.problem.equations,
         **described_vehicle.described(contents.problem),
+        "condition": contents.condition,
         "load": None if contents.problem.curve is None else contents.problem.curve.load,
         "matrices": "column by column, in C, in the self-tests and in lists of units",
         "c_types": C_TYPES,

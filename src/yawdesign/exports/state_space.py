@@ -1,6 +1,6 @@
 """The linear model of a problem as plain matrices."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +10,7 @@ from yawdesign.exports.described_vehicle import short_name
 from yawdesign.exports.parametric_model import ParametricModel
 from yawdesign.exports.symbolic_function import SymbolicFunction
 from yawdesign.hunting.arrays import Float
+from yawdesign.hunting.chosen_condition import AS_WRITTEN, Asked, chosen, condition_in_words
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.result import Result
 from yawdesign.vehicle.elements import Link
@@ -39,6 +40,9 @@ class StateSpaceModel(Result):
         Title of the problem.
     name : str
         ``bogie``, or ``vehicle`` with a car body.
+    condition : mapping
+        Under which condition: ``values`` ("as written", "worst" or "given"), ``speed`` [m/s] and what else is not as
+        written, in SI units.
     """
 
     A: Float
@@ -55,6 +59,7 @@ class StateSpaceModel(Result):
     speed: float
     title: str
     name: str
+    condition: Mapping[str, Any]
 
     def to_control(self) -> Any:
         """Return a `control.StateSpace` of python-control with named states, inputs and outputs."""
@@ -70,6 +75,7 @@ class StateSpaceModel(Result):
         lines = [
             f"StateSpaceModel: {len(self.states)} states, {len(self.inputs)} inputs, {len(self.outputs)} outputs",
             f"  C_s      {self.C_s:.9g} N s/m, speed {self.speed:.9g} m/s",
+            f"  {condition_in_words(self.condition)}",
         ]
         for kind in ("state", "input", "output"):
             named = zip(getattr(self, kind + "s"), getattr(self, kind + "_units"), strict=True)
@@ -77,18 +83,21 @@ class StateSpaceModel(Result):
         return "\n".join(lines)
 
 
-def state_space(problem: Problem) -> StateSpaceModel:
+def state_space(problem: Problem, *, condition: Asked = AS_WRITTEN) -> StateSpaceModel:
     """Return the linear model of a problem's vehicle as matrices, moved by the track.
 
     Parameters
     ----------
     problem : Problem
-        With a value of ``C_s`` and one speed.
+        With a value of ``C_s``, and one speed unless the condition says which.
+    condition : str or mapping
+        ``"as written"`` (default), ``"worst"`` of all conditions, or values such as ``{"lambda": 0.4, "creep_factor":
+        0.5, "speed": "330 km/h", "load": "laden", "tolerance.K_m": "-10 %"}``: the others stay as written.
 
     Raises
     ------
     ProblemError
-        If the problem has no ``C_s`` or a range of speeds.
+        If the problem has no ``C_s`` or several speeds, or the condition is not accepted.
 
     Examples
     --------
@@ -97,7 +106,8 @@ def state_space(problem: Problem) -> StateSpaceModel:
     >>> model.A.shape, model.B.shape, model.inputs[0]
     ((25, 25), (25, 4), 'alignment_1')
     """
-    vehicle = SymbolicFunction(ParametricModel.of(problem, free=())).vehicle()
+    asked = chosen(problem, condition)
+    vehicle = SymbolicFunction(ParametricModel.of(asked.problem, free=())).vehicle()
     system = vehicle.state_space
     outputs = exported_outputs(system)
     return StateSpaceModel(
@@ -112,6 +122,7 @@ def state_space(problem: Problem) -> StateSpaceModel:
         speed=vehicle.v,
         title=problem.title,
         name=short_name(vehicle.model),
+        condition=asked.described(vehicle.v),
     )
 
 

@@ -4,15 +4,17 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 from yawdesign.exports import c_files
 from yawdesign.exports.described_vehicle import in_words, short_name
 from yawdesign.exports.file_contents import PREFIX, ExportNames, FileContents, Unavailable
-from yawdesign.exports.fmu.archive import write_fmu
+from yawdesign.exports.fmu.archive import write_fmu_of
 from yawdesign.exports.folder import check_place, exported_folder, write_text
-from yawdesign.exports.functions import c_source, functions, listed, self_test, versions
+from yawdesign.exports.functions import c_source, functions_of, listed, self_test, versions
 from yawdesign.exports.manifest import write_manifest
 from yawdesign.exports.matlab import write_mat
+from yawdesign.hunting.chosen_condition import AS_WRITTEN, Asked, chosen, other_condition_in_words
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result
@@ -33,12 +35,16 @@ class Export(Result):
         Names of the functions.
     notes : tuple of str
         What was left out, and why.
+    condition : mapping
+        Under which condition: ``values`` ("as written", "worst" or "given"), ``speed`` [m/s] if there is one, and what
+        else is not as written, in SI units.
     """
 
     folder: str
     files: tuple[str, ...]
     functions: tuple[str, ...]
     notes: tuple[str, ...]
+    condition: Mapping[str, Any]
 
 
 def write_casadi(contents: FileContents, folder: Path) -> list[str]:
@@ -53,7 +59,8 @@ def write_c(contents: FileContents, folder: Path) -> list[str]:
     names = contents.names
     source = c_source(names.prefix, {names.symbol(name): f.function for name, f in contents.functions.items()})
     problem = contents.problem
-    kind = ", ".join((problem.bogie.kind, problem.equations, *in_words(problem)))
+    other = other_condition_in_words(contents.condition)
+    kind = ", ".join(filter(None, (problem.bogie.kind, problem.equations, *in_words(problem), other)))
     title = problem.title or short_name(Model.of(problem)).capitalize()
     by = "yawdesign {yawdesign} with CasADi {casadi}".format(**versions())
     about = f"{title} ({kind}): functions written by {by}"
@@ -72,7 +79,7 @@ def write_fmu_file(contents: FileContents, folder: Path) -> list[str]:
     """Write the linear motion as an FMU, which has all parameters whatever stays an input of the functions."""
     name = f"{short_name(Model.of(contents.problem))}.fmu"
     try:
-        fmu = write_fmu(contents.problem, folder / name)
+        fmu = write_fmu_of(contents.problem, contents.condition, folder / name)
     except ProblemError as error:
         raise Unavailable(f"{name} left out: {error}") from None
     if fmu.platform is None:
@@ -97,6 +104,7 @@ def export(
     formats: Collection[str] | None = None,
     prefix: str = PREFIX,
     force: bool = False,
+    condition: Asked = AS_WRITTEN,
 ) -> Export:
     """Write a problem's functions into a folder, for use in other codes without this package.
 
@@ -116,6 +124,9 @@ def export(
         can be linked into one program.
     force : bool
         Replace the files of an earlier export in a folder that is not empty. Other files are never touched.
+    condition : str or mapping
+        ``"as written"`` (default), ``"worst"`` of all conditions, or values such as ``{"lambda": 0.4, "creep_factor":
+        0.5, "speed": "330 km/h", "load": "laden", "tolerance.K_m": "-10 %"}``: the others stay as written.
 
     Returns
     -------
@@ -132,14 +143,17 @@ def export(
     only, formats = _sorted_out(only, formats)
     wanted, names = _formats(formats), ExportNames(prefix)
     check_place(Path(to), force=force)
-    documented = functions(problem, inputs, only).documented
+    asked = chosen(problem, condition)
+    documented = functions_of(asked, inputs, only).documented
     if not documented:
         raise ProblemError("no function is named: leave `only` out to export all")
-    contents = FileContents(problem, documented, {name: self_test(f) for name, f in documented.items()}, names)
+    under = next(iter(documented.values())).condition
+    tests = {name: self_test(f) for name, f in documented.items()}
+    contents = FileContents(asked.problem, documented, tests, under, names)
     with exported_folder(Path(to), force=force) as folder:
         files, notes = _write(contents, wanted, folder)
         files.append(write_manifest(contents, files, notes, folder))
-    return Export(str(to), tuple(files), tuple(documented), tuple(notes))
+    return Export(str(to), tuple(files), tuple(documented), tuple(notes), under)
 
 
 def _sorted_out(

@@ -1,6 +1,6 @@
 """What is said of a vehicle's stability, and how it is found under one condition, by two independent ways."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -19,8 +19,6 @@ from yawdesign.hunting.eigenvalues import (
 )
 from yawdesign.hunting.routh import count_unstable
 from yawdesign.problem import Problem, ProblemError
-from yawdesign.problem.cases import Case
-from yawdesign.problem.condition import Condition
 from yawdesign.problem.conditions import conditions
 from yawdesign.problem.result import Result
 from yawdesign.vehicle.elements import Link, parted
@@ -175,40 +173,13 @@ def given_damping(problem: Problem) -> float:
 
 
 def least_stable(problem: Problem) -> tuple[Vehicle, Stability]:
-    """Return a problem's vehicle at the speed of the least decay rate, and its stability. As in `stability`."""
+    """Return a problem's vehicle at the speed of the least decay rate, and its stability there."""
     given_damping(problem)
-    vehicles = Vehicle.of(problem)
-    worst, place = _worst(vehicles, conditions(problem), problem.design.variables)
-    return vehicles[place], worst
-
-
-def judged(
-    case: Case, vehicles: Sequence[Vehicle], conditions: Sequence[Condition], variables: Collection[str]
-) -> CaseVerdict:
-    """Return the stability of a vehicle with a fault.
-
-    Parameters
-    ----------
-    case : Case
-        The fault.
-    vehicles, conditions : sequences of Vehicle, Condition
-        The vehicle under each condition.
-    variables : collection of str
-        Design variables; they decide which decoupled modes count in the margins.
-    """
-    worst, _ = _worst([vehicle.with_fault(case) for vehicle in vehicles], conditions, variables)
-    margins = {"decay_rate": worst.decay_rate, "damping_ratio": worst.damping_ratio}
-    return CaseVerdict(case.name, worst.stable, **margins, worst_condition=worst.worst_condition, checked=worst.checked)
-
-
-def _worst(
-    vehicles: Sequence[Vehicle], conditions: Sequence[Condition], variables: Collection[str]
-) -> tuple[Stability, int]:
-    """Return the stability under the condition of the least decay rate, and the number of that."""
-    found = [stability_at(vehicle, variables) for vehicle in vehicles]
+    vehicles, looked = Vehicle.of(problem), conditions(problem)
+    found = [stability_at(vehicle, problem.design.variables) for vehicle in vehicles]
     place = min(range(len(found)), key=lambda k: (found[k].stable, found[k].decay_rate))
     checked = all(result.checked for result in found)
-    return replace(found[place], worst_condition=conditions[place].described, checked=checked), place
+    return vehicles[place], replace(found[place], worst_condition=looked[place].described, checked=checked)
 
 
 def stability_at(vehicle: Vehicle, variables: Collection[str] = ()) -> Stability:

@@ -8,7 +8,7 @@ a search and no proof: a narrow dip between the points of the grid may be missed
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import product
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
@@ -66,7 +66,7 @@ def worst_conditions(model: Model, p: dict[str, Any], conditions: ConditionSet, 
     names, ends = _names(conditions)
     place, x = _grid(conditions)
     sets = _sets(model, p, conditions, place, x)
-    margin = _low_margins(measure, sets)
+    margin = _low_margins(measure, sets, some=bool(conditions.ranges))
     found: list[tuple[int, Float, float]] = []
     for k in _starts(conditions, place, x, margin):
         there, least = _descended(model, p, conditions.lists[place[k]], names, ends, x[:, k], measure)
@@ -120,28 +120,27 @@ def _points(d: int, most: int) -> Float:
 def _sets(model: Model, p: dict[str, Any], conditions: ConditionSet, place: Index, x: Float) -> ParameterSets:
     """Return the vehicle under the conditions at points of the cube; the places rise."""
     names, ends = _names(conditions)
-    values = _between(ends, x)
-    ways = []
-    for k, condition in enumerate(conditions.lists):
-        own = place == k
-        ways.append((condition.with_values(dict(zip(names, values[:, own], strict=True))), int(own.sum())))
+    values, ways = _between(ends, x), []
+    borders = np.searchsorted(place, np.arange(len(conditions.lists) + 1)).tolist()
+    for condition, (start, stop) in zip(conditions.lists, pairwise(borders), strict=True):
+        ways.append((condition.with_values(dict(zip(names, values[:, start:stop], strict=True))), stop - start))
     return under_conditions(model, p, ways)
 
 
-def _low_margins(measure: Measure, sets: ParameterSets) -> Float:
-    """Return the margins of those vehicles that have the lowest ones, infinity for others."""
+def _low_margins(measure: Measure, sets: ParameterSets, *, some: bool) -> Float:
+    """Return the margins of those vehicles that have the lowest ones, or of some of them; infinity for others."""
     rng = np.random.default_rng(0)
     margin, left = np.full(sets.size, np.inf), np.arange(sets.size)
     for _ in range(MOST_LOOKS):
         if len(left) <= FEW:
             break
-        some = rng.choice(left, SAMPLE, replace=False)
-        margin[some] = measure.of(sets.part(some))
+        sample = rng.choice(left, SAMPLE, replace=False)
+        margin[sample] = measure.of(sets.part(sample))
         least = margin.min()
         yes, sure = measure.exceeds(sets.part(left), least + SLACK * abs(least))
         left = left[~(yes & sure)]
-    if len(left) > FEW:  # many are equally low, or unstable ones have no verdict
-        left = rng.choice(left, min(len(left), 10 * FEW), replace=False)
+    if some and len(left) > 10 * FEW:  # many are equally low, or unstable ones have no verdict
+        left = rng.choice(left, 10 * FEW, replace=False)
     margin[left] = measure.of(sets.part(left))
     return margin
 

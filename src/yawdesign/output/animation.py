@@ -2,8 +2,10 @@
 
 import io
 import math
+from html import escape
 from pathlib import Path
 
+from yawdesign.hunting.chosen_condition import other_condition_in_words
 from yawdesign.output.mode_plots import mode_shape
 from yawdesign.output.pictures import ANIMATIONS, own_texts
 from yawdesign.output.plan_view import (
@@ -25,7 +27,7 @@ from yawdesign.problem.whole_files import write_whole
 from yawdesign.response.modes.named_modes import Modes, NamedMode
 
 FRAMES, PERIOD = 24, 1.6  # pictures and seconds of a cycle
-SCALE = 100.0  # units of the SVG in a metre
+SCALE, LINE = 100.0, 16  # units of the SVG in a metre, and in a line of text
 
 SCRIPT = """(function () {
   var svg = document.currentScript.closest("svg"), parts = svg.querySelectorAll("g[data-y]");
@@ -119,14 +121,14 @@ def _svg(result: Modes, mode: NamedMode) -> str:
     rails = [_line(-length, length, side * SCALE * p["b"]) for side in (1, -1)]
     at_rest = [_group(body, f'fill="none" stroke="{REST}"') for body in shown]
     middle = (left + right) / 2
+    head = [*filter(None, (caption(mode), subtitle(result), escape(other_condition_in_words(result.condition))))]
     texts = [
-        _text(middle, -top - 20, caption(mode)),
-        _text(middle, -top - 4, subtitle(result)),
+        *(_text(middle, -top - 4 - LINE * k, line) for k, line in enumerate(reversed(head))),
         *(_text(SCALE * x, -SCALE * y, text) for x, y, text in labels(p)),
         _text(middle, -bottom + 8, f"{scale_note(p)}; direction of travel: to the right"),
     ]
-    height = top - bottom + 52
-    box = f"{left:.1f} {-top - 36:.1f} {right - left:.1f} {height:.1f}"
+    height = top - bottom + 20 + LINE * len(head)
+    box = f"{left:.1f} {-top - 4 - LINE * len(head):.1f} {right - left:.1f} {height:.1f}"
     size = f'width="{right - left:.0f}" height="{height:.0f}"'
     script = SCRIPT.replace("PERIOD", f"{PERIOD}").replace("REAL", "true" if mode.frequency == 0 else "false")
     return "\n".join(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from yawdesign.output.pictures import new_axes
+from yawdesign.output.pictures import new_axes, with_condition
 from yawdesign.output.plan_view import (
     COLOURS,
     REST,
@@ -67,7 +67,8 @@ def mode_shape(result: "Modes", ax: "Axes | None" = None, *, mode: str | None = 
             ax.add_patch(Polygon(moved, closed=True, zorder=2, **look))
     for x, y, text in labels(p):
         ax.text(x, y, text, ha="center", va="center", fontsize="small")
-    ax.set_title(f"{caption(chosen)}\n{subtitle(result)}; {scale_note(p)}", fontsize="medium")
+    title = f"{caption(chosen)}\n{subtitle(result)}; {scale_note(p)}"
+    ax.set_title(with_condition(title, result.condition), fontsize="medium")
     return ax
 
 
@@ -181,7 +182,8 @@ def _root_locus(result: "FollowedModes", ax: "Axes", shown: list[int], widest: f
         ax.figure.colorbar(lines, ax=ax, label=label)
     for x, text, align in ((-0.5, "stable", "right"), (0.5, "unstable", "left")):
         ax.text(x, 0.98 * top, text, ha=align, va="top", fontsize="small", color="0.4")
-    ax.set_title("Root locus: ○ first value, ● last value", fontsize="medium")
+    title = with_condition("Root locus: ○ first value, ● last value", result.condition)
+    ax.set_title(title, fontsize="medium")
     return ax
 
 
@@ -222,6 +224,7 @@ def _over_parameter(result: "FollowedModes", ax: "Axes", shown: list[int], of: s
     if _is_geometric(values):
         ax.set_xscale("log")
     ax.grid(alpha=0.3)
+    ax.set_title(with_condition("", result.condition), fontsize="medium")
     ax.legend(fontsize="small", loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
     return ax
 

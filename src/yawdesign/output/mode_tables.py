@@ -7,6 +7,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from yawdesign.hunting.chosen_condition import condition_in_words
 from yawdesign.output.tables import damping, speed, verified
 from yawdesign.problem import format_quantity
 from yawdesign.study.axes import ROWS
@@ -42,7 +43,9 @@ def modes_tables(result: "Modes") -> RenderableType:
         numbers = (frequency, f"{100 * mode.damping_ratio:.2f}", f"{mode.decay_rate:.4g}")
         table.add_row(mode.name, *numbers, _shares(_by_bogie(mode.participation)))
     hunting = result.hunting or "none: nothing that oscillates depends on the conicity"
-    lines = [f"hunting: {hunting}", *map(_sway, filter(_is_sway, result.modes)), f"checked: {verified(result.checked)}"]
+    sways = map(_sway, filter(_is_sway, result.modes))
+    checked = f"checked: {verified(result.checked)}"
+    lines = [f"hunting: {hunting}", *sways, condition_in_words(result.condition), checked]
     return Group(table, *map(Text, lines))
 
 
@@ -100,7 +103,8 @@ def followed_tables(result: "FollowedModes") -> RenderableType:
     certainty = f"least certainty of a link: {100 * np.nanmin(result.certainty):.0f} %"
     lines = [_meeting(result, k) for k in range(len(result.meetings))]
     checked = "yes" if result.checked else "NO: a link is not sure, or an eigenvalue is not exact"
-    return Group(table, *(Text(line) for line in (*lines, certainty, f"checked: {checked}")))
+    under = condition_in_words(result.condition)
+    return Group(table, *map(Text, (*lines, certainty, under, f"checked: {checked}")))
 
 
 def _number(value: float) -> str:

@@ -1,13 +1,14 @@
 """What every picture needs: axes to draw into, texts that Matplotlib sets itself, and the file it is written to."""
 
 import io
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from unicodedata import category
 
+from yawdesign.hunting.chosen_condition import other_condition_in_words
 from yawdesign.problem import ProblemError
 from yawdesign.problem.stopping import held
 from yawdesign.problem.whole_files import write_whole
@@ -42,6 +43,11 @@ def literal(text: str) -> str:
     """
     shown = (sign if sign.isprintable() or category(sign) == "Zs" else "?" for sign in text)
     return "".join(shown).replace("$", r"\$")
+
+
+def with_condition(title: str, condition: Mapping[str, Any]) -> str:
+    """Return a title with the condition of a result in a line below, unless its values are as written."""
+    return "\n".join(filter(None, (title, literal(other_condition_in_words(condition)))))
 
 
 def check_pictures(*paths: Path | None) -> None:

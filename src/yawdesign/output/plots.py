@@ -12,8 +12,12 @@ if TYPE_CHECKING:
 # What draws which kind of result, as module and function.
 DRAWN_BY: dict[str, tuple[str, str]] = {
     "Sweep": ("yawdesign.output.sweep_plots", "draw"),
+    "CriticalSpeeds": ("yawdesign.output.critical_speed_plots", "draw_critical_speeds"),
     "ForwardDesign": ("yawdesign.output.design_plots", "draw_design"),
+    "Uncertainty": ("yawdesign.output.uncertainty_plots", "draw_uncertainty"),
     "Optimum": ("yawdesign.output.design_plots", "draw_optimum"),
+    "Choice": ("yawdesign.output.choice_plots", "draw_choice"),
+    "TradeOff": ("yawdesign.output.trade_off_plots", "draw_trade_off"),
     "DamperComponent": ("yawdesign.output.response_plots", "damper_component"),
     "FrequencyResponse": ("yawdesign.output.response_plots", "frequency_response"),
     "Simulation": ("yawdesign.output.response_plots", "simulation"),

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from math import ceil, degrees, isinf
 from typing import TYPE_CHECKING
 
-from yawdesign.output.pictures import literal, new_axes
+from yawdesign.output.pictures import literal, new_axes, with_condition
 from yawdesign.problem import ProblemError, format_quantity
 from yawdesign.vehicle.elements import parted
 from yawdesign.vehicle.signals import BOGIES, DIRECTIONS, ENDS, first_looked_at
@@ -98,13 +98,14 @@ def simulation(
     ax.set(xlabel="time [s]", ylabel=f"{_first_capital(shared)} [{unit}]")
     title = f"Track {literal(result.track)}, C_s = {format_quantity(result.C_s, 'kN·s/m')}"
     if len(names) == 1:
-        ax.set_title(title, fontsize="medium", loc="left")
+        ax.set_title(with_condition(title, result.condition), fontsize="medium", loc="left")
         ax.legend(frameon=False, ncols=min(len(chosen), 4), loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2)
         return ax
     title += f", {format_quantity(chosen[0].speed, 'km/h', 4)}" if len(chosen) == 1 else ""
     ax.legend(
         frameon=False, ncols=PER_ROW, fontsize="small", loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.2
     )
+    title = with_condition(title, result.condition)
     ax.set_title(title, fontsize="medium", loc="left", pad=10 + 14 * ceil(len(lines) / PER_ROW))  # above the legend
     return ax
 
@@ -174,7 +175,8 @@ def frequency_response(result: "FrequencyResponse", ax: "Axes | None" = None) ->
     ax.grid(alpha=0.25, which="both")
     ax.set_xlabel("frequency [Hz]")
     title = f"{format_quantity(result.speed, 'km/h', 4)}, C_s = {format_quantity(result.C_s, 'kN·s/m')}"
-    ax.set_title(title + ("" if result.stable else " (unstable: free motions grow)"), fontsize="medium", loc="left")
+    title += "" if result.stable else " (unstable: free motions grow)"
+    ax.set_title(with_condition(title, result.condition), fontsize="medium", loc="left")
     ax.margins(x=0)
     return ax
 

@@ -8,6 +8,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from yawdesign.hunting.chosen_condition import condition_in_words
 from yawdesign.output.response_plots import SHOWN, meaning
 from yawdesign.output.tables import damping, facts, speed, titled, verified
 from yawdesign.problem import format_quantity
@@ -23,7 +24,8 @@ def simulation_tables(result: "Simulation") -> RenderableType:
     notes = [Text(f"note: {note}", style="dim") for note in result.notes]
     head = Text(f"Track {result.track}, C_s = {damping(result.C_s)}")
     checked = [] if result.checked else [Text("NOT VERIFIED: the two ways to a number differ", "bold yellow")]
-    parts: list[RenderableType] = [head, *notes, _growth(result), *_verdicts(result), *checked]
+    under = Text(condition_in_words(result.condition))
+    parts: list[RenderableType] = [head, under, *notes, _growth(result), *_verdicts(result), *checked]
     parts += [_frame(result), *_ride_comfort(result), _motions(result), _forces(result)]
     return Group(*parts, *map(damper_tables, result.dampers))
 

@@ -9,13 +9,16 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from yawdesign.hunting.chosen_condition import condition_in_words
+from yawdesign.output.condition_texts import condition_text
 from yawdesign.problem import PARAMETERS, format_quantity
+from yawdesign.problem.requirements import CASES
 
 if TYPE_CHECKING:
     from yawdesign.damper.forward import ForwardDesign
     from yawdesign.damper.single_bogie import Parting, SingleBogie
     from yawdesign.exports.write import Export
-    from yawdesign.hunting.verdict import CaseVerdict, Mode, Stability
+    from yawdesign.hunting.verdict import CaseVerdict, Mode, RequirementVerdict, Stability
 
 DAMPING = "kN·s/m"
 SHOWN = 10  # sensitivities
@@ -55,6 +58,7 @@ def facts(title: str, rows: Iterable[tuple[str, str]]) -> Table:
 
 
 def modes_table(modes: Iterable["Mode"]) -> Table:
+    """Return the table of the modes."""
     table = titled("Modes, least damped first", "frequency [Hz]", "damping ratio [%]", "decay rate [1/s]")
     for mode in modes:
         frequency = f"{mode.frequency:.3f}" if mode.frequency else "no oscillation"
@@ -69,20 +73,46 @@ def verified(checked: bool) -> str:
 
 def stability_tables(result: "Stability") -> RenderableType:
     """Return the tables of a `Stability`."""
-    verdict = Text("stable", "bold green") if result.stable else Text("UNSTABLE", "bold red")
-    if not result.checked:
-        verdict = Text("NOT VERIFIED: too close to the boundary, or too stiff, for double precision", "bold yellow")
     summary = facts(
-        f"Stability at {speed(result.speed)} with C_s = {damping(result.C_s)}",
+        f"With C_s = {damping(result.C_s)}",
         [
             ("spectral abscissa, all modes", f"{result.spectral_abscissa:.6g} 1/s"),
             ("decay rate, modes the design moves", margin(result.decay_rate, "decay_rate")),
             ("damping ratio, modes the design moves", margin(result.damping_ratio, "damping_ratio")),
+            ("worst condition", condition_text(result.worst_condition)),
             ("checked", verified(result.checked)),
         ],
     )
-    first = Text("The bogie is " if result.scope else "The vehicle is ").append_text(verdict).append(".")
-    return Group(first, *scope_lines(result.scope), summary, *case_tables(result.cases), modes_table(result.modes))
+    beside = [*requirement_tables(result.requirements), *case_tables(result.cases)]
+    return Group(_verdict(result), *scope_lines(result.scope), summary, *beside, modes_table(result.modes))
+
+
+def _verdict(result: "Stability") -> Text:
+    """Return the verdict and under which conditions it holds."""
+    verdict = Text("stable", "bold green") if result.stable else Text("UNSTABLE", "bold red")
+    if not result.checked:
+        verdict = Text("NOT VERIFIED: too close to the boundary, or too stiff, for double precision", "bold yellow")
+    at = "" if result.stable else f" with {condition_text(result.worst_condition)}. It was looked at"
+    first = Text("The bogie is " if result.scope else "The vehicle is ").append_text(verdict)
+    return first.append(f"{at} under {result.searched}.")
+
+
+def requirement_tables(requirements: "Iterable[RequirementVerdict]") -> list[Table]:
+    """Return the table of what is required and reached."""
+    table = titled("Requirements, under all conditions", "requirement", "at least", "reached", "met")
+    table.add_column("at", justify="left")
+    for each in requirements:
+        measure = each.name.removeprefix(CASES)
+        met = ("yes" if each.met else "NO") if each.checked else "not verified"
+        at = ", ".join([*([each.case] if each.case else []), condition_text(each.worst_condition)])
+        table.add_row(each.name, _reached(each.wanted, measure), _reached(each.reached, measure), met, at)
+    return [table] if table.row_count else []
+
+
+def _reached(value: float | None, measure: str) -> str:
+    if measure != "critical_speed":
+        return margin(value, measure)
+    return "beyond what was searched" if value is None else speed(value)
 
 
 def scope_lines(scope: str) -> list[Text]:
@@ -92,11 +122,12 @@ def scope_lines(scope: str) -> list[Text]:
 
 def case_tables(cases: "Iterable[CaseVerdict]") -> list[Table]:
     """Return the table of what happens with each fault."""
-    table = titled("Faults", "case", "stable", "decay rate [1/s]", "damping ratio [%]", "at")
+    table = titled("Faults", "case", "stable", "decay rate [1/s]", "damping ratio [%]")
+    table.add_column("at", justify="left")
     for case in cases:
         stable = ("yes" if case.stable else "NO") if case.checked else "not verified"
-        at = speed(case.worst_condition["speed"])
-        table.add_row(case.name, stable, f"{case.decay_rate:.4g}", f"{100 * case.damping_ratio:.2f}", at)
+        numbers = f"{case.decay_rate:.4g}", f"{100 * case.damping_ratio:.2f}"
+        table.add_row(case.name, stable, *numbers, condition_text(case.worst_condition))
     return [table] if table.row_count else []
 
 
@@ -173,7 +204,8 @@ def _sensitivities(result: "ForwardDesign") -> list[Table]:
 def export_tables(result: "Export") -> RenderableType:
     """Return the table of an `Export`."""
     rows = [("functions", ", ".join(result.functions)), ("files", ", ".join(result.files))]
-    return facts(f"Written to {result.folder}", [*rows, ("what they take and give", "manifest.json")])
+    rows += [("condition", condition_in_words(result.condition)), ("what they take and give", "manifest.json")]
+    return facts(f"Written to {result.folder}", rows)
 
 
 def rendered(table: RenderableType) -> str:

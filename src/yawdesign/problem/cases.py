@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from .diagnostics import Diagnostic, Mistakes, ProblemError, suggestion
+from .diagnostics import Diagnostic, Mistakes, ProblemError, suggestion, wrong_key
 from .parameters import BOGIE, CAR_BODY, PARAMETERS
 from .quantities import format_quantity, split_quantity
 from .table import Parameter, as_quantity, as_text, key_of, shown
@@ -44,6 +44,10 @@ class Change:
     def written(self) -> float | str:
         """The value as a problem file has it: a share is a percentage [%], any other in SI units [SI]."""
         return f"{float(self.value) * 100:.15g} %" if self.share else float(self.value)
+
+    def is_none(self, designed: float | None) -> bool:
+        """Return whether it leaves a value as designed as it is; None where that is not known, or may be changed."""
+        return (self.share and self.value == 1) or (designed is not None and self.result(designed) == designed)
 
     def result(self, designed: float) -> float:
         """Return the value with the fault, from that as designed."""
@@ -126,7 +130,7 @@ def _items(value: object) -> list[tuple[object, object]]:
 def _name(name: object) -> str:
     text = as_text(name).strip()
     if not text:
-        raise ProblemError("a fault needs a name")
+        raise wrong_key("a fault needs a name")
     return text
 
 
@@ -147,17 +151,17 @@ def _key(written: str, others: Mapping[str, object]) -> tuple[str, Parameter]:
     name = key_of(name)
     key = f"{bogie}{point}{name}"
     if bogie in BOGIES and name in CAR_BODY and name not in BOGIE:
-        raise ProblemError(f"belongs to the car body, of which there is one: write {name}")
+        raise wrong_key(f"belongs to the car body, of which there is one: write {name}")
     if key not in PARAMETERS and key not in ONE_BOGIE:
-        raise ProblemError(f"is not a parameter{suggestion(key, (*PARAMETERS, *ONE_BOGIE))}")
+        raise wrong_key(f"is not a parameter{suggestion(key, (*PARAMETERS, *ONE_BOGIE))}")
     if bogie and name in others:
-        raise ProblemError(f"stands beside {name}, which means both bogies: give each bogie its own, or both the same")
+        raise wrong_key(f"stands beside {name}, which means both bogies: give each bogie its own, or both the same")
     return key, PARAMETERS[name].finite
 
 
 def _change(key: str, row: Parameter, value: object) -> Change:
     """Return one change, its value checked as far as that is possible without the value as designed."""
-    share = value.share if isinstance(value, Change) else isinstance(value, str) and _is_percentage(value)
+    share = value.share if isinstance(value, Change) else is_percentage(value)
     given = value.value if isinstance(value, Change) else value
     if not share:
         return Change(key, row.check(given))
@@ -167,25 +171,27 @@ def _change(key: str, row: Parameter, value: object) -> Change:
     return Change(key, number, share=True)
 
 
-def _is_percentage(text: str) -> bool:
+def is_percentage(value: object) -> bool:
+    """Return whether a value is written as a percentage."""
     try:
-        return split_quantity(text)[1] == "%"
+        return isinstance(value, str) and split_quantity(value)[1] == "%"
     except ProblemError:
         return False  # no quantity at all: the row of the table says so
 
 
-def outside(case: Case, designed: Mapping[str, float | None]) -> Iterator[Diagnostic]:
-    """Yield the shares in a fault that lead out of the range of a parameter; values as designed by key, where known."""
+def outside(case: Case, designed: Mapping[str, Collection[float]]) -> Iterator[Diagnostic]:
+    """Yield the shares in a fault that lead out of the range of a parameter; the values that it has by key."""
     for change in case.changes:
-        value, row = designed.get(change.parameter), PARAMETERS[change.parameter].finite
-        if not change.share or value is None:
-            continue
-        try:
-            row.check(change.result(value))
-        except ProblemError:
-            reached = format_quantity(change.result(value), row.unit)
-            text = f"{change.written} of the value as designed is {reached}"
-            hint = "; a damper is removed by 0 % of its damping" if PARAMETERS[change.parameter].rigid else ""
-            yield Diagnostic(
-                key=f"{case.name}.{change.key}", message=f"{text}, outside {row.range_text(row.hard, row.unit)}{hint}"
-            )
+        row = PARAMETERS[change.parameter].finite
+        for value in designed.get(change.parameter, ()) if change.share else ():
+            try:
+                row.check(change.result(value))
+            except ProblemError:
+                reached = format_quantity(change.result(value), row.unit)
+                text = f"{change.written} of the value as designed is {reached}"
+                hint = "; a damper is removed by 0 % of its damping" if PARAMETERS[change.parameter].rigid else ""
+                yield Diagnostic(
+                    key=f"{case.name}.{change.key}",
+                    message=f"{text}, outside {row.range_text(row.hard, row.unit)}{hint}",
+                )
+                break

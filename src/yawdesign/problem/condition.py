@@ -1,15 +1,13 @@
-"""A condition under which everything must hold, and what a problem file says of them: plain data."""
+"""A condition under which everything must hold, and all of a problem as they were written: plain data."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
+from math import prod
 from typing import Any
 
-from .diagnostics import Diagnostic, Mistakes, ProblemError, suggestion
-from .parameters import PARAMETERS
-from .quantities import format_quantity
-from .table import Parameter, as_quantity, as_several, as_text, check_ends, key_of, shown
+from .table import Parameter
 
 CREEP = ("f_11", "f_22")  # what `creep_factor` multiplies
 CREEP_FACTOR = Parameter(
@@ -22,9 +20,7 @@ CREEP_FACTOR = Parameter(
     source="1",
 )
 TOLERANCE = "tolerance."  # before the name of a parameter that deviates from its value by a share
-OWN_KEYS = ("creep_factor", "tolerance", "load")  # of `conditions`, beside parameters
-MOST_TOLERANCE = 1.0  # a deviation by the whole value, at which a stiffness or a damping would vanish
-_EXAMPLE = "lambda: [0.05, 0.10, 0.40] or creep_factor: {min: 0.5, max: 1}"
+MOST_LISTED = 10_000  # combinations of what is listed, with the ends of ranges and the speeds of the first look
 
 
 @dataclass(frozen=True)
@@ -140,15 +136,40 @@ class Conditions:
         """The parameters that it replaces, ``creep_factor`` among them."""
         return tuple(dict.fromkeys(name for name, _ in (*self.values, *self.ranges)))
 
+    @property
+    def every_key(self) -> frozenset[str]:
+        """The parameters that it changes in any way, by loads and tolerances too."""
+        creep = CREEP if CREEP_FACTOR.key in self.keys else ()
+        loaded = (name for load in self.loads for name, _ in load.changes)
+        return frozenset((*self.keys, *creep, *loaded, *dict(self.tolerance)))
+
+    @property
+    def combinations(self) -> int:
+        """The number of combinations of what is listed and of the ends of ranges."""
+        listed = prod(len(values) for _, values in self.values) * max(1, len(self.loads))
+        ends: int = 2 ** (len(self.ranges) + len(self.tolerance))
+        return listed * ends
+
+    def taken(self, name: str, designed: float | None) -> tuple[float, ...]:
+        """Return the values that are given of a parameter, the ends of its range among them [SI].
+
+        Where it may keep its value, that as designed is one of them, if it is known.
+        """
+        loaded = [dict(load.changes).get(name) for load in self.loads]
+        found = (*dict(self.values).get(name, ()), *dict(self.ranges).get(name, ()))
+        found += tuple(value for value in loaded if value is not None)
+        kept = name not in self.keys and (not loaded or None in loaded)
+        return (*found, designed) if kept and designed is not None else found
+
     def of(self, keys: Collection[str]) -> Conditions:
         """Return what is said of some parameters: those of a bogie."""
         known = {*keys, CREEP_FACTOR.key}
-        loads = [Load(x.name, tuple(change for change in x.changes if change[0] in known)) for x in self.loads]
+        loads = {tuple(change for change in x.changes if change[0] in known): x.name for x in reversed(self.loads)}
         return Conditions(
             values=tuple(x for x in self.values if x[0] in known),
             ranges=tuple(x for x in self.ranges if x[0] in known),
             tolerance=tuple(x for x in self.tolerance if x[0] in known),
-            loads=tuple(load for load in loads if load.changes),
+            loads=tuple(Load(loads[changes], changes) for changes in reversed(loads)) if any(loads) else (),
         )
 
     @property
@@ -161,135 +182,3 @@ class Conditions:
         if self.loads:
             found["load"] = {load.name: {key: float(x) for key, x in load.changes} for load in self.loads}
         return found
-
-
-def as_conditions(value: object) -> Conditions:
-    """Return conditions, given as such or as a problem file has them.
-
-    Examples
-    --------
-    >>> as_conditions({"lambda": [0.05, 0.4], "tolerance": {"K_m": "10 %"}}).tolerance
-    (('K_m', 0.1),)
-    """
-    found, mistakes = read_conditions(value)
-    if mistakes:
-        raise ProblemError(mistakes)
-    return found
-
-
-def read_conditions(value: object) -> tuple[Conditions, list[Diagnostic]]:
-    """Return the conditions that are right, and the mistakes in the others."""
-    if isinstance(value, Conditions):
-        return value, []
-    mistakes = Mistakes()
-    values: dict[str, tuple[float, ...]] = {}
-    ranges: dict[str, tuple[float, float]] = {}
-    tolerance: dict[str, float] = {}
-    loads: list[Load] = []
-    with mistakes.under(""):
-        for name, written in _items(value, _EXAMPLE):
-            with mistakes.under(name):
-                if name == "tolerance":
-                    tolerance = _tolerance(written)
-                elif name == "load":
-                    loads = _loads(written)
-                elif isinstance(written, Mapping):
-                    ranges[_row(name).key] = _range(written, _row(name))
-                else:
-                    values[_row(name).key] = _values(written, _row(name))
-    return Conditions(tuple(values.items()), tuple(ranges.items()), tuple(tolerance.items()), tuple(loads)), (
-        mistakes.found
-    )
-
-
-def _items(value: object, example: str) -> Iterator[tuple[str, object]]:
-    if not isinstance(value, Mapping) or not value:
-        what = "has no value" if value is None else f"{shown(value)} is not what stands here"
-        raise ProblemError(f"{what}, expected keys and values, such as {example}")
-    yield from ((key_of(str(name)), each) for name, each in value.items())
-
-
-def _row(name: str) -> Parameter:
-    if name == CREEP_FACTOR.key:
-        return CREEP_FACTOR
-    if name in ("speed", "v"):
-        raise ProblemError("stands beside conditions, not in it: speed may be a list or a range")
-    if name == "C_s":
-        raise ProblemError("is what is designed: a deviation of it is a tolerance, such as tolerance: {C_s: 15 %}")
-    if name not in PARAMETERS:
-        raise ProblemError(f"is not a parameter{suggestion(name, (*PARAMETERS, *OWN_KEYS))}")
-    return PARAMETERS[name].finite
-
-
-def _values(written: object, row: Parameter) -> tuple[float, ...]:
-    mistakes, found = Mistakes(), []
-    entries = as_several(written)
-    if not entries:
-        raise ProblemError("is an empty list: give the values that may come, or remove the key")
-    for k, entry in enumerate(entries):
-        with mistakes.under(f"{k}" if isinstance(written, (list, tuple)) else ""):
-            number = row.check(entry)
-            if number in found:
-                raise ProblemError(f"{shown(entry)} stands twice")
-            found.append(number)
-    mistakes.report()
-    return tuple(found)
-
-
-def _range(written: Mapping[Any, object], row: Parameter) -> tuple[float, float]:
-    mistakes = Mistakes()
-    for key in written:
-        with mistakes.under(str(key)):
-            if key not in ("min", "max"):
-                raise ProblemError(f"is not known here{suggestion(str(key), ('min', 'max'))}; a range has min and max")
-    for key in ("min", "max"):
-        with mistakes.under(""):
-            if key not in written:
-                raise ProblemError(f"{key} is missing: a range is {{min: ..., max: ...}}")
-    mistakes.report()
-    return check_ends(written["min"], written["max"], row)
-
-
-def _tolerance(written: object) -> dict[str, float]:
-    mistakes, found = Mistakes(), dict[str, float]()
-    with mistakes.under(""):
-        for name, share in _items(written, "K_m: 10 %"):
-            with mistakes.under(name):
-                if name not in PARAMETERS:
-                    raise ProblemError(f"is not a parameter{suggestion(name, PARAMETERS)}")
-                number = as_quantity(share, "-")
-                if not 0 < number < MOST_TOLERANCE:
-                    raise ProblemError(
-                        f"{shown(share)} is no tolerance: more than 0 % and less than 100 % of the value"
-                    )
-                found[name] = number
-    mistakes.report()
-    return found
-
-
-def _loads(written: object) -> list[Load]:
-    mistakes, found = Mistakes(), []
-    with mistakes.under(""):
-        for name, changes in _items(written, "laden: {W: 200 kN}"):
-            with mistakes.under(name):
-                found.append(Load(as_text(name).strip(), _changes(changes)))
-    mistakes.report()
-    return found
-
-
-def _changes(written: object) -> tuple[tuple[str, float], ...]:
-    mistakes, found = Mistakes(), []
-    with mistakes.under(""):
-        for key, value in _items(written, "W: 200 kN"):
-            with mistakes.under(key):
-                if key == CREEP_FACTOR.key:
-                    raise ProblemError("is no part of a load: it stands beside load")
-                found.append((key, _row(key).check(value)))
-    mistakes.report()
-    return tuple(found)
-
-
-def tolerated(share: float, value: float, row: Parameter) -> str:
-    """Return in words which values a tolerance means."""
-    low, high = (format_quantity(value * (1 + sign * share), row.unit) for sign in (-1, 1))
-    return f"{low} ... {high}"

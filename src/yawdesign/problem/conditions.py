@@ -6,16 +6,12 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
-from typing import Any
 
 from .condition import CREEP as CREEP
 from .condition import TOLERANCE, Condition, Load
 from .condition import applied as applied
-from .diagnostics import ProblemError
 from .problem import Problem
 from .running import SpeedRange
-
-MOST_LISTED = 10_000  # combinations, ends of ranges among them
 
 
 @dataclass(frozen=True)
@@ -109,18 +105,9 @@ def condition_set(problem: Problem) -> ConditionSet:
     ranges |= {f"{TOLERANCE}{name}": (-share, share) for name, share in given.tolerance}
     loads: tuple[Load | None, ...] = given.loads or (None,)
     steps = speed.steps if isinstance(speed, SpeedRange) else 11
-    _check_size(lists, ranges, loads)
     combinations = [tuple(zip(lists, each, strict=True)) for each in product(*lists.values())]
     every = tuple(Condition(changes, load) for changes in combinations for load in loads)
     return ConditionSet(every, tuple(ranges.items()), steps)
-
-
-def _check_size(lists: Mapping[str, Any], ranges: Mapping[str, Any], loads: Collection[Any]) -> None:
-    size = prod(len(values) for values in lists.values()) * len(loads) * 2 ** len(ranges)
-    if size > MOST_LISTED:
-        raise ProblemError(
-            f"conditions: every combination of them, with the ends of ranges, makes {size}: at most {MOST_LISTED}"
-        )
 
 
 def conditions(problem: Problem) -> tuple[Condition, ...]:

@@ -40,6 +40,8 @@ class Diagnostic:
         The line as it was written.
     length : int
         Number of characters to underline.
+    at_key : bool
+        Whether it is the key that is wrong, and not its value.
     """
 
     message: str
@@ -50,6 +52,7 @@ class Diagnostic:
     column: int | None = None
     source_line: str = ""
     length: int = 1
+    at_key: bool = False
 
     def render(self) -> str:
         """Return the message as shown to a person: place, text, source line and underline."""
@@ -88,6 +91,11 @@ class ProblemError(ValueError):
     def under(self, key: str) -> Self:
         """Return the same mistakes, named as found under `key`."""
         return type(self)(replace(d, key=".".join(part for part in (key, d.key) if part)) for d in self.diagnostics)
+
+
+def wrong_key(message: str) -> ProblemError:
+    """Return the error for a key that should not be there, or not here."""
+    return ProblemError([Diagnostic(message=message, at_key=True)])
 
 
 class UnitWarning(UserWarning):

@@ -114,11 +114,13 @@ class Document:
     def find(self, path: Path, *, key: bool = False) -> Node:
         """Return the node at a path, or the innermost around it; the key's with `key` or where there is no value."""
         node, name = self.root, Node(self.root.start, self.root.start + 1)
-        for part in path:
-            if not isinstance(node, Mapping) or part not in node.values:
+        for part in map(str, path):
+            if isinstance(node, Mapping) and part in node.values:
+                name, node = node.keys[part], node.values[part]
+            elif isinstance(node, Sequence) and part.isdecimal() and int(part) < len(node.items):
+                name = node = node.items[int(part)]
+            else:
                 return name
-            name = node.keys[str(part)]
-            node = node.values[str(part)]
         nothing = isinstance(node, Scalar) and node.start == node.end
         return name if key or (nothing and path) else node
 

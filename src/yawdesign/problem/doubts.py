@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from .condition import CREEP_FACTOR
 from .consistency import fitting_axle_load
 from .creep import CREEP
 from .document import Path
 from .parameters import BOGIE, CAR_BODY, PARAMETERS
 from .problem import Problem
 from .quantities import exact, format_quantity
+from .requirements import MEASURES
 from .running import CURVE, SPEED
-from .table import Parameter
+from .table import Parameter, key_of
 
 MOST_APART = 0.1  # of the axle loads from the weight
 # Kalker's coefficients allow a lateral creep coefficient at most 1.1 times the longitudinal one (nu = 0.25).
@@ -28,6 +30,7 @@ def doubts(problem: Problem, data: Mapping[str, Any]) -> Iterator[tuple[Path, st
     yield from _weight(problem, data)
     yield from _pivots(problem, data)
     yield from _creep(problem, data)
+    yield from _not_among(problem)
 
 
 def _written_values(data: Mapping[str, Any]) -> Iterator[tuple[Path, Parameter, Any]]:
@@ -38,32 +41,60 @@ def _written_values(data: Mapping[str, Any]) -> Iterator[tuple[Path, Parameter, 
                 yield (part, key), rows[key], value
     for key, value in data["bogie"].get("creep", {}).items():
         yield ("bogie", "creep", key), CREEP[key], value
-    speed = data["speed"]
-    ends: dict[Path, Any] = {("speed",): speed}
-    if isinstance(speed, dict):
-        ends = {("speed", end): speed[end] for end in ("min", "max")}
-    elif isinstance(speed, list):
-        ends = {("speed", k): entry for k, entry in enumerate(speed)}
-    yield from ((path, SPEED, value) for path, value in ends.items())
+    yield from _each(("speed",), SPEED, data["speed"])
+    yield from _of_conditions(data.get("conditions", {}))
+    wanted = data.get("requirements", {})
+    for place, values in ((("requirements",), wanted), (("requirements", "cases"), wanted.get("cases", {}))):
+        yield from (((*place, key), MEASURES[key], value) for key, value in values.items() if key in MEASURES)
     for key, bounds in data.get("design", {}).get("variables", {}).items():
         for end, value in bounds.items():
             yield ("design", "variables", key, end), PARAMETERS[key], value
 
 
+def _each(path: Path, row: Parameter, written: Any) -> Iterator[tuple[Path, Parameter, Any]]:
+    """Yield a value, those of a list, or the ends of a range."""
+    if isinstance(written, dict):
+        yield from (((*path, end), row, written[end]) for end in ("min", "max"))
+    elif isinstance(written, list):
+        yield from (((*path, k), row, entry) for k, entry in enumerate(written))
+    else:
+        yield path, row, written
+
+
+def _of_conditions(data: Mapping[str, Any]) -> Iterator[tuple[Path, Parameter, Any]]:
+    rows = {**PARAMETERS, CREEP_FACTOR.key: CREEP_FACTOR}
+    for key, written in data.items():
+        if key_of(key) in rows:
+            yield from _each(("conditions", key), rows[key_of(key)], written)
+    for name, values in data.get("load", {}).items():
+        yield from ((("conditions", "load", name, key), rows[key_of(key)], value) for key, value in values.items())
+
+
+def _not_among(problem: Problem) -> Iterator[tuple[Path, str]]:
+    """Doubt conditions that leave out the value as designed."""
+    designed = problem.parameters()
+    for key, value in designed.items():
+        taken, row = problem.conditions.taken(key, value), PARAMETERS[key]
+        if taken and not min(taken) <= value <= max(taken):
+            place = ("conditions", key) if key in problem.conditions.keys else ("conditions", "load")
+            own = f"the value as designed, {format_quantity(value, row.unit)}, is none of these"
+            yield place, f"{own}: answers hold for {row.range_text((min(taken), max(taken)), row.unit)}"
+
+
 def _weight(problem: Problem, data: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:
-    """Doubt an axle load that is not a quarter of the weight."""
+    """Doubt axle loads that are not a quarter of the weight."""
     if problem.car_body is None:
         return
-    kind, W = problem.bogie.kind, problem.bogie.W
-    fitting = fitting_axle_load(problem.parameters(), kind)
-    if abs(W - fitting) <= MOST_APART * fitting:
-        return
+    designed = problem.parameters()
+    vehicles: dict[Path, dict[str, float]] = {("bogie", "W") if "W" in data["bogie"] else ("car_body",): designed}
+    vehicles |= {("conditions", "load", x.name): designed | dict(x.changes) for x in problem.conditions.loads}
+    kind = problem.bogie.kind
     parts = "car body, two bogie frames, four wheelsets" + (" and four motors" if kind == "power" else "")
-    text = (
-        f"{_kN(W)} on each of four axles is {_kN(4 * W)}, but {parts} weigh {_kN(4 * fitting)}: "
-        f"W = {_kN(fitting)} would carry them"
-    )
-    yield ("bogie", "W") if "W" in data["bogie"] else ("car_body",), text
+    for place, p in vehicles.items():
+        W, fitting = p["W"], fitting_axle_load(p, kind)
+        if abs(W - fitting) > MOST_APART * fitting:
+            text = f"{_kN(W)} on each of four axles is {_kN(4 * W)}, but {parts} weigh {_kN(4 * fitting)}"
+            yield place, f"{text}: W = {_kN(fitting)} would carry them"
 
 
 def _kN(force: float) -> str:

@@ -10,21 +10,27 @@ from typing import Any
 from pydantic import ValidationError
 
 from .cases import read_cases
-from .condition import Conditions, read_conditions
+from .condition import Conditions
 from .consistency import Values, misfits
 from .creep import CREEP, MADE
 from .diagnostics import Diagnostic, ProblemError, nearest, suggestion
+from .distributions import read_distributions
 from .document import Path
 from .file_shape import SWITCHES
 from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, bogie_keys, incomplete, parameter_keys
+from .requirements import MEASURES, read_requirements
 from .running import CURVE
 from .table import Parameter
+from .variables import default_variables
+from .written_conditions import OWN_KEYS, read_conditions
 
 _NO_ROBUST = "is not a known key: what must hold stands under conditions, such as lambda: [0.05, 0.40]"
 _TAGS = ("<range>", "<value>")
-_TOP = ("title", "equations", "bogie", "car_body", "speed", "curve", "conditions", "cases", "requirements", "design")
+_TOP = (
+    *("title", "equations", "bogie", "car_body", "speed", "curve", "conditions", "cases", "requirements", "design"),
+    "uncertainty",
+)
 _ROWS: Mapping[str, Mapping[str, Parameter]] = {"bogie": BOGIE, "car_body": CAR_BODY, "curve": CURVE}
-_AT_KEY = ("bogie", "car_body", "design")  # where parts do not fit together, it is a key that should not be there
 
 
 @dataclass(frozen=True)
@@ -54,18 +60,21 @@ def disagreements(data: Mapping[str, Any], kind: str) -> Iterator[Fault]:
     """Yield what does not fit together in data that have other mistakes: these are left out."""
     bogie, car_body = _known("bogie", data, kind), _known("car_body", data, kind) if "car_body" in data else None
     design = data.get("design")
-    variables = design.get("variables") if isinstance(design, dict) else ()
+    variables = design.get("variables") if isinstance(design, dict) else default_variables(kind)
+    cases = read_cases(data["cases"])[0] if "cases" in data else ()
     known = (*bogie_keys(kind), *CAR_BODY)
     found = misfits(
         kind=kind,
         equations=data.get("equations"),
         bogie=bogie,
         car_body=car_body,
+        speed_count=len(data["speed"]) if isinstance(data.get("speed"), list) else 1,
         curve="curve" in data,
-        variables=[key for key in known if isinstance(variables, dict) and key in variables],
-        cases=read_cases(data["cases"])[0] if "cases" in data else (),
+        variables=[key for key in known if isinstance(variables, Mapping) and key in variables],
+        cases=cases,
         conditions=read_conditions(data["conditions"])[0] if "conditions" in data else Conditions(),
-        requirements=(),
+        requirements=read_requirements(data["requirements"])[0] if "requirements" in data else (),
+        uncertainty=read_distributions(data["uncertainty"])[0] if "uncertainty" in data else (),
     )
     yield from placed(data, chain(incomplete(bogie), found))
 
@@ -93,8 +102,7 @@ def _checked(row: Parameter, value: object) -> float | None:
 
 def placed(data: Mapping[str, Any], found: Iterable[Diagnostic]) -> list[Fault]:
     """Return diagnostics as faults, with their places in the data."""
-    paths = [(_named(data, each.key), each.message) for each in found]
-    return [Fault(path, message, at_key=path[:1] != () and path[0] in _AT_KEY) for path, message in paths]
+    return [Fault(_named(data, each.key), each.message, each.at_key) for each in found]
 
 
 def _named(data: object, name: str) -> Path:
@@ -122,7 +130,7 @@ def _home(key: str, around: Path, kind: str) -> Path | None:
     """Return the part of a problem to which a key belongs that stands in another."""
     if len(around) > 1:
         return None
-    places: tuple[Path, ...] = ((), *((part,) for part in _ROWS))
+    places: tuple[Path, ...] = ((), *((part,) for part in (*_ROWS, "conditions", "requirements")))
     return next((place for place in places if place != around and key in _allowed(place, kind)), None)
 
 
@@ -137,7 +145,7 @@ def _told(found: Any, path: Path, kind: str) -> Iterator[Fault]:
     match found["type"]:
         case "value_error":
             for each in found["ctx"]["error"].diagnostics:
-                yield Fault((*path, *_named(found["input"], each.key)), each.message)
+                yield Fault((*path, *_named(found["input"], each.key)), each.message, each.at_key)
         case "missing":
             yield Fault(path, f"is missing{_meaning(path)}", at_key=True)
         case "extra_forbidden":
@@ -183,10 +191,14 @@ def _allowed(around: Path, kind: str) -> tuple[str, ...]:
             return ("base", *CAR_BODY, *SWITCHES["car_body"])
         case ("curve",):
             return (*CURVE, "load")
+        case ("conditions",):
+            return OWN_KEYS
+        case ("requirements",):
+            return tuple(MEASURES)
         case ("speed",):
             return ("min", "max", "steps")
         case ("design",):
-            return ("objective", "variables")
+            return ("objective", "variables", "catalogue")
         case ("design", "variables"):
             return tuple(dict.fromkeys((*bogie_keys(kind), *CAR_BODY)))
         case _:

@@ -23,9 +23,11 @@ from pydantic import (
 from pydantic import create_model as make
 
 from .cases import as_cases
-from .condition import Conditions, as_conditions
+from .condition import Conditions
 from .creep import CREEP, MADE, creep_coefficients
+from .damper_catalogue import as_catalogue, catalogue_schema
 from .diagnostics import Mistakes, ProblemError
+from .distributions import as_distributions
 from .parameters import BOGIE, CAR_BODY, KINDS, PARAMETERS, Bogie, CarBody, bogie_keys
 from .patterns import unit_pattern
 from .problem import EQUATIONS, Problem
@@ -34,6 +36,7 @@ from .running import CURVE, LOADS, SPEED, STEPS, Curve, SpeedRange, as_speeds
 from .table import Parameter, as_choice, as_count, as_switch, as_text, check_end, field_name
 from .units import kind_of
 from .variables import OBJECTIVES, Design, Variable
+from .written_conditions import as_conditions
 
 PRESETS: Mapping[str, tuple[str, ...]] = {"bogie": ("table1",), "car_body": ("huo-dai",)}
 SWITCHES: Mapping[str, Mapping[str, tuple[bool, str]]] = {
@@ -52,7 +55,8 @@ _TENS = r"([eE][-+]?\d+|\s*[×·⋅*x]\s*10((\^|\*\*)[-+\u2212]?\d+|[⁺⁻]?[�
 _QUANTITY = r"^\s*[-+]?(\d[\d _\u2009\u202f\u00a0]*(\.[\d _\u2009\u202f\u00a0]*)?|\.\d+){tens}\s*{unit}$"
 
 
-def _quantity_schema(row: Parameter) -> dict[str, Any]:
+def quantity_schema(row: Parameter) -> dict[str, Any]:
+    """Return the JSON Schema of a value of the table."""
     unit = row.unit.strip("-")
     si = f"; a number alone is in {row.si}" if unit else ""
     hover = f"{row.meaning[:1].upper()}{row.meaning[1:]}, ${row.symbol}$ [{row.unit}]{si}. "
@@ -66,14 +70,14 @@ def _quantity_schema(row: Parameter) -> dict[str, Any]:
 
 def quantity(row: Parameter) -> Any:
     """Return the type of a value of the table."""
-    return _leaf(row.check, _quantity_schema(row))
+    return _leaf(row.check, quantity_schema(row))
 
 
 def _upper_end(row: Parameter) -> Any:
     def check(value: object, info: ValidationInfo) -> object:
         return check_end(value, row, info.data.get("min"))
 
-    return _leaf(check, _quantity_schema(row))
+    return _leaf(check, quantity_schema(row))
 
 
 def _choice(choices: Collection[str], meaning: str, default: str | None = None) -> Any:
@@ -139,7 +143,7 @@ def _speed() -> Any:
     def tag(value: object) -> str:
         return "<range>" if isinstance(value, dict) else "<value>"
 
-    schema = _quantity_schema(SPEED)
+    schema = quantity_schema(SPEED)
     listed = {"description": "These speeds.", "type": "array", "minItems": 1, "items": {"anyOf": schema["anyOf"]}}
     some = _leaf(as_speeds, {**schema, "anyOf": [*schema["anyOf"], listed]})
     one, several = Annotated[some, Tag("<value>")], Annotated[_speed_range(), Tag("<range>")]
@@ -164,7 +168,11 @@ def _design_model(kind: str) -> type[BaseModel]:
     return _model(
         "Design",
         "What may be changed, and what is to be best.",
-        {"objective": (objective, None), "variables": (some, None)},
+        {
+            "objective": (objective, None),
+            "variables": (some, None),
+            "catalogue": (_leaf(as_catalogue, catalogue_schema()), None),
+        },
     )
 
 
@@ -203,6 +211,7 @@ def problem_model(
             "cases": (_leaf(as_cases, {"description": "Faults that must be survived, by name."}), None),
             "requirements": (_leaf(as_requirements, {"description": "What must be reached."}), None),
             "design": (_design_model(kind), None),
+            "uncertainty": (_leaf(as_distributions, {"description": "Distributions of parameters."}), None),
         },
     )
 
@@ -221,6 +230,7 @@ def build(model: BaseModel) -> Problem:
         cases=data.get("cases", ()),
         conditions=data.get("conditions", Conditions()),
         requirements=data.get("requirements", ()),
+        uncertainty=data.get("uncertainty", ()),
         design=_design(data.get("design", {})),
     )
 
@@ -247,4 +257,5 @@ def _made(bogie: dict[str, Any]) -> dict[str, Any]:
 
 def _design(data: dict[str, Any]) -> Design:
     variables = {key: Variable(**bounds) for key, bounds in data.get("variables", {}).items()}
-    return Design(objective=data.get("objective", "decay_rate"), variables=variables)
+    catalogue = data.get("catalogue", ())
+    return Design(objective=data.get("objective", "decay_rate"), variables=variables, catalogue=catalogue)

@@ -312,7 +312,7 @@ class Bogie:
         given = {key for key in MOTOR_KEYS if getattr(self, key) is not None}
         wrong = given if self.kind == "trailer" else set(MOTOR_KEYS) - given
         text = NO_MOTOR if self.kind == "trailer" else "is missing: a power bogie needs it"
-        return [Diagnostic(key=f"bogie.{key}", message=text) for key in MOTOR_KEYS if key in wrong]
+        return [Diagnostic(key=f"bogie.{key}", message=text, at_key=True) for key in MOTOR_KEYS if key in wrong]
 
     def parameters(self) -> dict[str, float]:
         """Return the values in SI by key (``lambda``, not ``lambda_``), without those that are None.
@@ -434,10 +434,11 @@ def incomplete(given: Collection[str]) -> Iterator[Diagnostic]:
     """Yield what is wrong with keys of a bogie that only make sense together."""
     for joint, damper in (("K_d1x", "C_1x"), ("K_d1y", "C_1y")):
         if joint in given and damper not in given:
-            yield Diagnostic(key=f"bogie.{joint}", message=f"needs the damper: {damper} is missing")
+            yield Diagnostic(key=f"bogie.{joint}", message=f"needs the damper: {damper} is missing", at_key=True)
     for key in ROLL_KEYS:
         if key not in VERTICAL and (key in given) != ("I_b" in given):
-            yield Diagnostic(key=f"bogie.{key}", message=NO_ROLL if key in given else ROLL_NEEDS_IT)
+            text = NO_ROLL if key in given else ROLL_NEEDS_IT
+            yield Diagnostic(key=f"bogie.{key}", message=text, at_key=True)
 
 
 def bogie_keys(kind: str) -> tuple[str, ...]:

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
-from numbers import Real
 from typing import Any, Literal, Self, get_args
 
 from .arguments import named
 from .cases import Case, as_cases
-from .condition import Conditions, as_conditions
+from .condition import CREEP_FACTOR, Conditions
 from .consistency import misfits, present, why_absent
 from .diagnostics import Mistakes, ProblemError
+from .distributions import Distribution, as_distributions
+from .distributions import written as written_distributions
 from .parameters import CAR_BODY, VERTICAL, Bogie, CarBody, bogie_keys, given_of
 from .quantities import Written, exact
 from .requirements import Requirement, as_requirements
 from .requirements import written as written_requirements
-from .running import CURVE, SPEED, Curve, SpeedRange, as_speeds
-from .table import RIGID, as_choice, as_text, field_name, key_of
+from .running import CURVE, SPEED, Curve, SpeedRange, as_speeds, computed_speed
+from .table import RIGID, Parameter, as_choice, as_text, field_name, key_of
 from .variables import Design, default_variables
+from .written_conditions import as_conditions
 
 Equations = Literal["reciprocal", "as-printed"]
 EQUATIONS: tuple[str, ...] = get_args(Equations)
@@ -55,6 +57,9 @@ class Problem:
     requirements : tuple of Requirement
         What must be reached under all conditions; they may be given as a problem file has them,
         ``{"damping_ratio": "5 %", "critical_speed": "330 km/h"}``.
+    uncertainty : tuple of Distribution
+        Of parameters, the creep factor or the speed; they may be given as a problem file has them, ``{"lambda":
+        {"uniform": [0.05, 0.4]}, "K_m": {"lognormal": "10 %"}}``.
     """
 
     bogie: Bogie
@@ -67,6 +72,7 @@ class Problem:
     cases: tuple[Case, ...] = ()
     conditions: Conditions = field(default_factory=Conditions)
     requirements: tuple[Requirement, ...] = ()
+    uncertainty: tuple[Distribution, ...] = ()
 
     def __post_init__(self) -> None:
         mistakes = Mistakes()
@@ -77,15 +83,16 @@ class Problem:
         for name, kind in _PARTS.items():
             with mistakes.under(name):
                 _instance(getattr(self, name), kind)
-        if not isinstance(self.speed, SpeedRange):
-            with mistakes.under("speed"):
-                object.__setattr__(self, "speed", as_speeds(self.speed, SPEED.accept))
+        with mistakes.under("" if isinstance(self.speed, Mapping) else "speed"):
+            object.__setattr__(self, "speed", _speed(self.speed, SPEED.accept))
         with mistakes.under("cases"):
             object.__setattr__(self, "cases", as_cases(self.cases))
         with mistakes.under("conditions"):
             object.__setattr__(self, "conditions", as_conditions(self.conditions))
         with mistakes.under("requirements"):
-            object.__setattr__(self, "requirements", as_requirements(self.requirements))
+            object.__setattr__(self, "requirements", as_requirements(self.requirements, Parameter.accept))
+        with mistakes.under("uncertainty"):
+            object.__setattr__(self, "uncertainty", as_distributions(self.uncertainty))
         mistakes.report()
         if not self.design.variables:
             design = replace(self.design, variables=default_variables(self.bogie.kind))
@@ -100,11 +107,14 @@ class Problem:
                 equations=self.equations,
                 bogie=given_of(self.bogie),
                 car_body=given_of(self.car_body) if self.car_body else None,
+                speed_count=self._speed_count,
                 curve=self.curve is not None,
                 variables=self.design.variables,
                 cases=self.cases,
                 conditions=self.conditions,
                 requirements=self.requirements,
+                uncertainty=self.uncertainty,
+                speeds=self.speeds,
             )
         )
         if found:
@@ -112,6 +122,10 @@ class Problem:
         if self.car_body is not None and self.car_body.l_c is None and self.curve is not None:
             half = Written(exact(self.curve.L) / 2)
             object.__setattr__(self, "car_body", replace(self.car_body, l_c=half))
+
+    @property
+    def _speed_count(self) -> int:
+        return self.speed.steps if isinstance(self.speed, SpeedRange) else len(self.speeds)
 
     def parameters(self) -> dict[str, float]:
         """Return the values of bogie and car body in SI by key, without those that are not given or rigid.
@@ -132,14 +146,16 @@ class Problem:
         keys = present(bogie.parameters())
         variables = {key: variable for key, variable in self.design.variables.items() if key in keys}
         design = replace(self.design, variables=variables)
-        requirements = tuple(each for each in self.requirements if not each.of_cases)
+        cases = tuple(case for case in self.cases if {change.key for change in case.changes} <= set(keys))
+        requirements = tuple(each for each in self.requirements if cases or not each.of_cases)
         return replace(
             self,
             car_body=None,
             bogie=bogie,
-            cases=(),
+            cases=cases,
             conditions=self.conditions.of(keys),
             requirements=requirements,
+            uncertainty=tuple(x for x in self.uncertainty if x.name in (*keys, CREEP_FACTOR.key, SPEED.key)),
             design=design,
         )
 
@@ -187,9 +203,9 @@ class Problem:
             with mistakes.under(key_of(name)):
                 parts[self._part_of(key_of(name))][field_name(key_of(name))] = value
         mine = parts.pop("own")
-        with mistakes.under("speed"):
-            if isinstance(speed := mine.get("speed"), Real):  # a speed that was computed is hardly whole
-                mine["speed"] = SPEED.accept(speed, doubtful=SPEED.check(speed).exact.denominator == 1)
+        if "speed" in mine and not isinstance(mine["speed"], Mapping):
+            with mistakes.under("speed"):
+                mine["speed"] = _speed(mine["speed"], computed_speed)
         for name, values in parts.items():
             with mistakes.under(name):
                 part = mine.get(name, getattr(self, name))
@@ -226,10 +242,21 @@ class Problem:
         plain["cases"] = {case.name: {change.key: change.written for change in case.changes} for case in self.cases}
         plain["conditions"] = self.conditions.written
         plain["requirements"] = written_requirements(self.requirements)
+        catalogue = plain["design"].pop("catalogue")
+        if catalogue:
+            plain["design"]["catalogue"] = [damper.written for damper in self.design.catalogue]
+        plain["uncertainty"] = written_distributions(self.uncertainty)
         return plain
 
 
 _PARTS: Mapping[str, Any] = {"bogie": Bogie, "car_body": CarBody | None, "curve": Curve | None, "design": Design}
+
+
+def _speed(given: Any, check: Callable[[object], float]) -> float | tuple[float, ...] | SpeedRange:
+    """Return speeds as a problem holds them: a range may be given as a problem file has it."""
+    if isinstance(given, SpeedRange):
+        return given
+    return SpeedRange(**given) if isinstance(given, Mapping) else as_speeds(given, check)
 
 
 def _given(part: Bogie | CarBody) -> dict[str, Any]:

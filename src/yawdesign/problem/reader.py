@@ -8,6 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from .catalogue_file import with_catalogue
 from .diagnostics import Diagnostic, ProblemError
 from .document import MOST_BYTES, Document, compose, plain_data
 from .doubts import doubts
@@ -105,6 +106,8 @@ def read_text(text: str, name: str = "<text>") -> Report:
         empty = data is None
         document.note(document.root, "the file is empty" if empty else "a problem is a list of 'key: value' lines")
         return None, tuple(document.diagnostics)
+    data, mistakes = with_catalogue(document, data)
+    document.diagnostics += mistakes
     problem = _validated(document, data)
     if document.diagnostics:
         return None, _sorted(document.diagnostics)
@@ -115,7 +118,7 @@ def read_text(text: str, name: str = "<text>") -> Report:
 
 
 def _sorted(diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-    return tuple(sorted(diagnostics, key=lambda d: (d.line or 0, d.column or 0)))
+    return tuple(sorted(diagnostics, key=lambda d: (d.path, d.line or 0, d.column or 0)))
 
 
 def _accepted(report: Report) -> Problem:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from .diagnostics import Diagnostic, Mistakes, ProblemError, suggestion
+from .diagnostics import Diagnostic, Mistakes, ProblemError, suggestion, wrong_key
 from .running import SPEED
 from .table import Parameter, shown
 
@@ -60,43 +60,62 @@ class Requirement:
         return self.name.removeprefix(CASES)
 
 
-def as_requirements(value: object) -> tuple[Requirement, ...]:
-    """Return requirements, given as such or as a problem file has them.
+def as_requirements(
+    value: object, check: Callable[[Parameter, object], float] = Parameter.check
+) -> tuple[Requirement, ...]:
+    """Return requirements, given as such or as a problem file has them; `check` makes each value a number in SI.
 
     Examples
     --------
     >>> as_requirements({"damping_ratio": "5 %", "cases": {"damping_ratio": "0 %"}})[1].name
     'cases.damping_ratio'
     """
-    if isinstance(value, (tuple, list)) and all(isinstance(entry, Requirement) for entry in value):
-        value = written(value)
-    mistakes, found = Mistakes(), []
-    if value == {}:
-        return ()
+    found, mistakes = read_requirements(value, check)
+    if mistakes:
+        raise ProblemError(mistakes)
+    return found
+
+
+def read_requirements(
+    value: object, check: Callable[[Parameter, object], float] = Parameter.check
+) -> tuple[tuple[Requirement, ...], list[Diagnostic]]:
+    """Return the requirements that are right, and the mistakes in the others."""
+    mistakes, found = Mistakes(), dict[str, Requirement]()
     with mistakes.under(""):
-        for name, wanted in _items(value):
+        for name, wanted in _given(value):
             with mistakes.under(name):
-                found.append(_requirement(name, wanted))
-    mistakes.report()
-    return tuple(found)
+                if name in found:
+                    raise wrong_key("stands twice")
+                found[name] = Requirement(name, check(_row(name, wanted), wanted))
+    return tuple(found.values()), mistakes.found
 
 
-def _items(value: object) -> Iterator[tuple[str, object]]:
+def _given(value: object) -> Iterator[tuple[str, object]]:
+    if isinstance(value, (tuple, list)) and all(isinstance(each, Requirement) for each in value):
+        yield from ((each.name, each.wanted) for each in value)
+        return
     if not isinstance(value, Mapping):
-        what = "has no value" if value is None else f"{shown(value)} is not what stands here"
-        raise ProblemError(f"{what}, expected requirements, such as {_EXAMPLE}")
+        raise _not_keys(value, _EXAMPLE)
     for name, wanted in value.items():
-        if name == "cases" and isinstance(wanted, Mapping):
+        if name == "cases" and isinstance(wanted, Mapping) and wanted:
             yield from ((f"{CASES}{key}", each) for key, each in wanted.items())
         else:
             yield str(name), wanted
 
 
-def _requirement(name: str, wanted: object) -> Requirement:
-    key = name.removeprefix(CASES)
-    if key not in MEASURES:
-        raise ProblemError(f"is not known here{suggestion(key, MEASURES)}; known here: {', '.join(MEASURES)}, cases")
-    return Requirement(name, MEASURES[key].accept(wanted))
+def _not_keys(value: object, example: str) -> ProblemError:
+    what = "has no value" if value is None else f"{shown(value)} is not what stands here"
+    return ProblemError(f"{what}, expected requirements, such as {example}")
+
+
+def _row(name: str, wanted: object) -> Parameter:
+    measure = name.removeprefix(CASES)
+    if name == "cases":
+        raise _not_keys(wanted, "damping_ratio: 0 %")
+    if measure not in MEASURES:
+        known = (*MEASURES, "cases") if measure == name else tuple(MEASURES)
+        raise wrong_key(f"is not known here{suggestion(measure, known)}; known here: {', '.join(known)}")
+    return MEASURES[measure]
 
 
 def written(requirements: object) -> dict[str, object]:
@@ -112,6 +131,7 @@ def written(requirements: object) -> dict[str, object]:
 
 def without_cases(requirements: tuple[Requirement, ...], cases: object) -> Iterator[Diagnostic]:
     """Yield the requirements of faults where there are none."""
-    for each in requirements:
-        if each.of_cases and not cases:
-            yield Diagnostic(key=f"requirements.{each.name}", message="there are no faults: give cases, or remove this")
+    text = "there are no faults: give cases, or remove this"
+    for each in requirements if not cases else ():
+        if each.of_cases:
+            yield Diagnostic(key=f"requirements.{each.name}", message=text, at_key=True)

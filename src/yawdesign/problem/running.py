@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any, Literal, get_args
 
 from .arguments import named
@@ -97,20 +98,27 @@ LOWEST_SEARCHED, HIGHEST_SEARCHED = 10 / 3.6, 600 / 3.6  # [m/s], for critical s
 
 def as_speeds(value: Any, check: Callable[[object], float] = SPEED.check) -> float | tuple[float, ...]:
     """Return a speed, or several in rising order [m/s]; a list of one is that one."""
-    if isinstance(value, str) or (not isinstance(value, (list, tuple)) and not hasattr(value, "__len__")):
+    if isinstance(value, (str, Mapping)) or not hasattr(value, "__len__"):
         return check(value)
     entries = as_several(value)
     if not 0 < len(entries) <= MOST_SPEEDS:
         raise ProblemError(f"{len(entries)} speeds: give one to {MOST_SPEEDS}, or a range {{min: ..., max: ...}}")
-    mistakes, found = Mistakes(), list[float]()
+    mistakes, found = Mistakes(), set[float]()
     for k, entry in enumerate(entries):
         with mistakes.under(f"{k}"):
             speed = check(entry)
             if speed in found:
                 raise ProblemError(f"{shown(entry)} stands twice")
-            found.append(speed)
+            found.add(speed)
     mistakes.report()
-    return found[0] if len(found) == 1 else tuple(sorted(found))
+    return found.pop() if len(found) == 1 else tuple(sorted(found))
+
+
+def computed_speed(value: object) -> float:
+    """Return a speed [m/s] that Python code gives: one that was computed is hardly whole, others are doubted."""
+    whole = isinstance(value, Real) and SPEED.check(value).exact.denominator == 1
+    number: float = SPEED.accept(value, doubtful=whole)
+    return number
 
 
 @named

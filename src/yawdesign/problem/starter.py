@@ -56,8 +56,24 @@ _OF_ONE_BOGIE = """
 #   one yaw damper of the leading bogie lost: {leading.C_s: 50 %, leading.K_ds: 50 %}
 #   lateral dampers of the trailing bogie lost: {trailing.C_t: 0 %}"""
 
+_CONDITIONS = """\
+# The conditions that will be met. A margin is the worst, and a verdict holds, under every combination of them and of
+# the speeds. A parameter that stands here has these values in place of its own.
+# conditions:
+#   lambda: [0.05, 0.10, 0.15, 0.25, 0.40]     # a list: these values
+#   creep_factor: {{min: 0.5, max: 1}}           # a range: every value in it; this one multiplies f_11 and f_22
+#   tolerance: {{C_s: 15 %, C_t: 20 %}}          # by which share of its value, to either side, a parameter may deviate
+#   load: {{tare: {{{tare}}}, laden: {{{laden}}}}}
+
+# What must be reached under all conditions; `optimise` chooses among the designs that do.
+# requirements:
+#   damping_ratio: 5 %         # at least
+#   critical_speed: 330 km/h   # stable at every speed up to this
+#   cases: {{damping_ratio: 0 %}} # what the faults below must reach"""
+
 _TAIL = """\
-# The running speed, or a range of which every speed must be stable:
+# The running speed; or several; or a range, every speed in it: `steps` of them are looked at first.
+# speed: [200 km/h, 300 km/h]
 # speed: {{min: 200 km/h, max: 300 km/h, steps: 11}}
 speed: 300 km/h
 
@@ -66,13 +82,24 @@ curve:
 {curve}
   load: axle                   # Q is the axle load W (axle) or the wheel load W/2 (wheel, as railway standards have it)
 
+{conditions}
+
 {cases}
 
 design:
   objective: decay_rate        # make the least decay rate [1/s] as large as possible, or the least damping_ratio [-]
   variables:                   # what may be changed; any parameter {of} may stand here
 {variables}
+  # catalogue: dampers.csv     # the yaw damper is one of these: `yawdesign choose` ranks them
+
+# How parameters are distributed, creep_factor and speed too, for `yawdesign uncertainty`:
+# uncertainty:
+#   lambda: {{uniform: [0.05, 0.40]}}
+#   K_m: {{lognormal: 10 %}}      # standard deviation as a share of the value; or normal: 10 %
 """
+
+
+_MASSES = (34.5, 42)  # of a car body without and with passengers [t]
 
 
 def starter(kind: str = "power", *, car_body: bool = False) -> str:
@@ -101,6 +128,7 @@ def starter(kind: str = "power", *, car_body: bool = False) -> str:
     title = f"A car body on two {kind} bogies" if car_body else f"A {kind} bogie"
     tail = _TAIL.format(
         curve=_lines(CURVE.values()),
+        conditions=_conditions(kind, car_body=car_body),
         cases=_CASES + (_OF_ONE_BOGIE if car_body else ""),
         of="of bogie and car body" if car_body else "of the bogie",
         variables="\n".join(_variable(key) for key in default_variables(kind)),
@@ -111,16 +139,24 @@ def starter(kind: str = "power", *, car_body: bool = False) -> str:
 
 def _bogie_lines(kind: str, *, car_body: bool) -> str:
     """Return the values of Table I as commented lines, in groups, and what else there may be as lines to uncomment."""
-    load = {"W": _axle_load(kind)} if car_body else {}
+    load = {"W": f"{round(_axle_load(kind))} 000"} if car_body else {}
     rows = [replace(BOGIE[key], source=load.get(key, BOGIE[key].source)) for key in parameter_keys(kind)]
     more = [BOGIE[key] for key in ADDED if not (car_body and key in VERTICAL)]
     return "\n\n".join([*_groups(rows), _OPTIONAL.format(lines="\n\n".join(_groups(more, mark="# ")))])
 
 
-def _axle_load(kind: str) -> str:
-    """Return the axle load of the vehicle with the values of both tables, rounded to kilonewtons, as a source."""
-    values = {row.key: row.check(row.example) for row in (*BOGIE.values(), *CAR_BODY.values())}
-    return f"{round(fitting_axle_load(values, kind) / 1e3)} 000"
+def _conditions(kind: str, *, car_body: bool) -> str:
+    """Return conditions and requirements as lines to uncomment, with an empty and a full vehicle."""
+    if not car_body:
+        return _CONDITIONS.format(tare="W: 120 kN", laden="W: 200 kN")
+    tare, laden = (f"M_c: {mass} t, W: {round(_axle_load(kind, M_c=1e3 * mass))} kN" for mass in _MASSES)
+    return _CONDITIONS.format(tare=tare, laden=laden)
+
+
+def _axle_load(kind: str, **changed: float) -> float:
+    """Return the axle load of the vehicle with the values of both tables, but for some [kN]."""
+    values = {row.key: row.check(row.example) for row in (*BOGIE.values(), *CAR_BODY.values())} | changed
+    return fitting_axle_load(values, kind) / 1e3
 
 
 def _groups(rows: Iterable[Parameter], mark: str = "") -> Iterator[str]:

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import Any, Literal, Self, get_args
 
 from .arguments import named, refused
+from .damper_catalogue import CatalogueDamper, as_catalogue
 from .diagnostics import Mistakes, ProblemError, unknown_key
 from .parameters import PARAMETERS, parameter_keys
 from .table import Parameter, as_choice, check_ends, key_of
@@ -85,15 +86,20 @@ class Design:
         Largest least decay rate [1/s] or largest least damping ratio [-].
     variables : mapping of str to Variable
         Bounds by parameter key. If there are none, a problem takes C_s and, for a power bogie, K_m and C_m.
+    catalogue : tuple of CatalogueDamper
+        The yaw damper is one of these, if there are any; bounds of C_s leave some of them out.
     """
 
     objective: Objective = "decay_rate"
     variables: Mapping[str, Variable] = field(default_factory=lambda: Variables({}))
+    catalogue: tuple[CatalogueDamper, ...] = ()
 
     def __post_init__(self) -> None:
         mistakes = Mistakes()
         with mistakes.under("design.objective"):
             as_choice(self.objective, OBJECTIVES)
+        with mistakes.under("design.catalogue"):
+            object.__setattr__(self, "catalogue", as_catalogue(self.catalogue) if self.catalogue != () else ())
         checked: dict[str, Variable] = {}
         for given, variable in self._given():
             key = key_of(given)

@@ -3,7 +3,8 @@
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,12 +13,15 @@ from numpy.typing import NDArray
 from yawdesign.damper.curving import curving_limit, rotational_resistance
 from yawdesign.damper.decision import decide
 from yawdesign.damper.status import Status
-from yawdesign.hunting.arrays import Array, Bools
+from yawdesign.hunting.arrays import Array, Bools, Float, Index
 from yawdesign.hunting.many import margins
 from yawdesign.hunting.many.critical_speeds import critical_speeds
 from yawdesign.hunting.many.critical_values import critical_field
 from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.verdict import stability_at
+from yawdesign.problem import Curve
+from yawdesign.problem.condition import Condition
+from yawdesign.problem.running import CURVE
 from yawdesign.study.request import Question
 
 LENGTH = 16384  # points that one thread looks at
@@ -87,31 +91,52 @@ def _cases(question: Question, sets: ParameterSets) -> list[ParameterSets]:
 
 
 def _verdicts(question: Question, sets: ParameterSets) -> Answers:
-    stable, sure = _everywhere(margins.stable(case) for case in _cases(question, sets))
-    return _mended(question, sets, "stable", stable, ~sure)
-
-
-def _everywhere(verdicts: Iterable[tuple[Bools, Bools]]) -> tuple[Bools, Bools]:
-    """Return whether verdicts and whether their sureness hold under every condition."""
-    yes, sure = zip(*verdicts, strict=True)
-    return np.all(yes, axis=0), np.all(sure, axis=0)
+    """Return what is stable under all conditions: what one has ruled out is not looked at under the next."""
+    out = _Mended(question, sets, np.ones(sets.size, dtype=bool))
+    for condition in question.conditions:
+        left = np.flatnonzero(out.values)
+        if not len(left):
+            break
+        yes, sure = margins.stable(sets.part(left).under(condition))
+        out.values[left] = yes
+        out.mend(left[~sure], condition, "stable")
+    return out.answers("stable")
 
 
 def _margins(question: Question, sets: ParameterSets) -> Answers:
-    found = [margins.margins(case, question.of, question.variables) for case in _cases(question, sets)]
-    worst, passed = np.min([value for value, _ in found], axis=0), np.all([passed for _, passed in found], axis=0)
-    return _mended(question, sets, question.of, worst, ~passed)
+    """Return the least margins: what surely exceeds the least one so far is not looked at closer."""
+    out = _Mended(question, sets, np.full(sets.size, np.inf))
+    for condition in question.conditions:
+        case, left = sets.under(condition), np.arange(sets.size)
+        if condition is not question.conditions[0]:
+            yes, sure = margins.exceeds(case, question.of, out.values, question.variables)
+            left = np.flatnonzero(~(yes & sure))
+        if len(left):
+            found, passed = margins.margins(case.part(left), question.of, question.variables)
+            better = np.where(passed, found, np.inf)
+            out.values[left] = np.minimum(out.values[left], better)
+            out.mend(left[~passed], condition, question.of)
+    return out.answers(question.of)
 
 
-def _mended(question: Question, sets: ParameterSets, of: str, values: NDArray[Any], doubtful: Bools) -> Answers:
-    """Return the verdicts or margins, the doubtful ones by the single route."""
-    unverified = np.zeros_like(doubtful)
-    for k in np.flatnonzero(doubtful):
-        vehicle = sets.vehicle_at(k)
-        found = [stability_at(vehicle.under(condition), question.variables) for condition in question.conditions]
-        values[k] = min(getattr(x, of) for x in found)
-        unverified[k] = not all(x.checked for x in found)
-    return Answers({of: values}, doubtful, unverified)
+class _Mended:
+    """The least values of many points under several conditions, the doubtful ones by the single route."""
+
+    def __init__(self, question: Question, sets: ParameterSets, values: NDArray[Any]) -> None:
+        self.question, self.sets, self.values = question, sets, values
+        self.recomputed, self.unverified = np.zeros((2, sets.size), dtype=bool)
+
+    def mend(self, points: Index, condition: Condition, of: str) -> None:
+        """Compute some points under a condition by themselves."""
+        for k in points:
+            found = stability_at(self.sets.vehicle_at(k).under(condition), self.question.variables)
+            value = getattr(found, of)
+            self.values[k] = value if of == "stable" else min(self.values[k], value)
+            self.recomputed[k] = True
+            self.unverified[k] |= not found.checked
+
+    def answers(self, of: str) -> Answers:
+        return Answers({of: self.values}, self.recomputed, self.unverified)
 
 
 def _critical(question: Question, sets: ParameterSets) -> Answers:
@@ -139,27 +164,50 @@ def _critical_speeds(question: Question, sets: ParameterSets) -> Answers:
 
 
 def _design(question: Question, sets: ParameterSets) -> Answers:
-    cases = _cases(question, sets)
+    curves, sets = _curves(question.curve, sets)
+    cases, factors = _cases(question, sets), [condition.damping_factor for condition in question.conditions]
     fields = [critical_field(case) for case in cases]
     recomputed = np.any([x.recomputed for x in fields], axis=0)
     unverified = np.any([x.unverified for x in fields], axis=0)
     others_stable, sure = _everywhere(margins.others_stable(case) for case in cases)
     unverified |= ~sure
-    curve, upper = question.curve, np.full(sets.size, np.inf)
-    if curve is not None:
-        upper = np.min([np.full(case.size, curving_limit(case.values, curve)) for case in cases], axis=0)
-    decision = decide([(x.critical, x.unstable_roots) for x in fields], upper, others_stable)
+    upper = np.full(sets.size, np.inf)
+    if curves is not None:
+        limits = [curving_limit(case.values, curves) / factor for case, factor in zip(cases, factors, strict=True)]
+        upper = np.min([np.broadcast_to(limit, sets.size) for limit in limits], axis=0)
+    crossings = [(x.critical / factor, x.unstable_roots) for x, factor in zip(fields, factors, strict=True)]
+    decision = decide(crossings, upper, others_stable)
     status = np.where(unverified, Status.UNVERIFIED, decision.status)
     C_sl = np.where(unverified, np.nan, decision.C_sl)
     if question.of == "C_sl":
         return Answers({"C_sl": C_sl, "status": status}, recomputed, unverified)
     C_s = np.where(unverified, np.nan, decision.C_s)
     columns = {"C_s": C_s, "C_sl": C_sl, "C_su": np.where(np.isinf(upper), np.nan, upper), "status": status}
-    if curve is not None:
+    if curves is not None:
         with np.errstate(all="ignore"):
-            each = [np.full(case.size, rotational_resistance(case.values, C_s, curve)) for case in cases]
-        columns["rotational_resistance"] = np.max(each, axis=0)
+            columns["rotational_resistance"] = _largest_resistance(cases, factors, C_s, curves)
     return _confirmed(question, sets, Answers(columns, recomputed, unverified))
+
+
+def _everywhere(verdicts: Iterable[tuple[Bools, Bools]]) -> tuple[Bools, Bools]:
+    """Return whether verdicts and whether their sureness hold under every condition."""
+    yes, sure = zip(*verdicts, strict=True)
+    return np.all(yes, axis=0), np.all(sure, axis=0)
+
+
+def _curves(curve: Curve | None, sets: ParameterSets) -> tuple[Any, ParameterSets]:
+    """Return the curves, whose numbers may be arrays, and what remains: the numbers of the vehicles."""
+    if curve is None:
+        return None, sets
+    own = {name: sets.values.get(name, getattr(curve, name)) for name in CURVE}
+    others = {name: x for name, x in sets.values.items() if name not in CURVE}
+    return SimpleNamespace(**own, load=curve.load), replace(sets, values=others)
+
+
+def _largest_resistance(cases: Sequence[ParameterSets], factors: Sequence[float], C_s: Float, curves: Any) -> Float:
+    """Return the largest T / (4 Q a) [-] with dampings as designed under any condition."""
+    each = (rotational_resistance(x.values, C_s * factor, curves) for x, factor in zip(cases, factors, strict=True))
+    return np.asarray(np.max([np.broadcast_to(x, C_s.shape) for x in each], axis=0))
 
 
 def _confirmed(question: Question, sets: ParameterSets, answers: Answers) -> Answers:

@@ -9,13 +9,13 @@ from typing import Any, Self
 import numpy as np
 
 from yawdesign.problem import PARAMETERS, Curve, Problem, ProblemError
-from yawdesign.problem.condition import CREEP, Condition
-from yawdesign.problem.conditions import conditions, distinct
+from yawdesign.problem.condition import CREEP, TOLERANCE, Condition
+from yawdesign.problem.conditions import ConditionSet, condition_set
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR
-from yawdesign.problem.running import SpeedRange
+from yawdesign.problem.running import CURVE
 from yawdesign.problem.table import RIGID, as_choice, key_of
-from yawdesign.study.axes import DERIVED, ROWS, Axis, applied, read_axis, shape
+from yawdesign.study.axes import DERIVED, ROWS, SETS, Axis, applied, read_axis, shape
 from yawdesign.vehicle.vehicle import Model
 
 # What can be asked, and the unit of its answer.
@@ -36,8 +36,11 @@ UNITS = {
 }
 # What must be known at every point, beside the parameters.
 NEEDS_DAMPING = ("stable", "decay_rate", "damping_ratio", "critical_speed")
+ALL_AT_ONE = ("critical", "critical_speed")  # the values are those of one condition
+ABOUT_CURVE = ("C_sl", "design")  # what depends on the curve
 SEARCHED = (10 / 3.6, 600 / 3.6)  # for critical speeds, where the problem gives no range [m/s]
 
+MOST_CONDITIONS = 1000  # at every point, those inside ranges among them
 MOST_AXES = 3
 HOLDS = ("C_m", "xi_m")
 # Axes that set the same parameters.
@@ -60,7 +63,8 @@ class Question:
     model : Model
         Which equations.
     conditions : tuple of Condition
-        The answer holds for all of them. What an axis gives is not among them; of a critical speed, the speed neither.
+        The answer holds for all of them: what is listed, and some values of each range, both ends among them. What an
+        axis gives is not among them; of a critical speed, the speed neither.
     searched : tuple of float
         Between which speeds [m/s] critical ones are looked for.
     variables : tuple of str
@@ -79,16 +83,22 @@ class Question:
     @classmethod
     def about(cls, problem: Problem, of: str, given: Collection[str] = ()) -> Self:
         """Return the question that a problem asks, where axes give the values of some names."""
-        replaced = {*given, "v"} if of == "critical_speed" else given
         speeds = problem.speeds
         return cls(
             of,
             Model.of(problem),
-            distinct(conditions(problem), replaced),
+            remaining(problem, of, given).grid(MOST_CONDITIONS),
             searched=SEARCHED if len(speeds) == 1 else (float(speeds[0]), float(speeds[-1])),
             variables=tuple(problem.design.variables),
             curve=problem.curve,
         )
+
+
+def remaining(problem: Problem, of: str, given: Collection[str]) -> ConditionSet:
+    """Return the conditions of a problem that are left beside axes: these replace those of what they set."""
+    names = {*given, *(name for axis in given for name in SETS.get(axis, ()))}
+    names |= {f"{TOLERANCE}{name}" for name in names} | ({"v"} if of == "critical_speed" else set())
+    return condition_set(problem).without(names)
 
 
 @dataclass(frozen=True)
@@ -198,12 +208,14 @@ def _read(problem: Problem, pairs: list[tuple[str, Any]], mistakes: Mistakes) ->
 def _check_name(problem: Problem, name: str) -> None:
     if problem.bogie.kind == "trailer" and (name in MOTOR_KEYS or (name in DERIVED and DERIVED[name].motor)):
         raise ProblemError(NO_MOTOR)
+    if name in CURVE and problem.curve is None:
+        raise ProblemError("is a number of the curve, and there is none: give curve first")
     allowed = [key for key in ROWS if key not in PARAMETERS or key in problem.keys]
     if name in PARAMETERS and name not in allowed:
         raise ProblemError(_why_absent(problem, name))
     if name not in allowed:
         raise ProblemError(f"{unknown_key(name, allowed)}; an axis is a parameter of the problem, v, or one of "
-                           f"{', '.join(key for key in DERIVED if key in allowed)}")  # fmt: skip
+                           f"{', '.join(key for key in (*DERIVED, *CURVE) if key in allowed)}")  # fmt: skip
 
 
 def _why_absent(problem: Problem, name: str) -> str:
@@ -246,10 +258,23 @@ def _unanswerable(problem: Problem, quantity: str, names: list[str]) -> Mistakes
     with mistakes.under("v"):
         if quantity == "critical_speed" and "v" in names:
             raise ProblemError("is no axis of critical_speed, which is sought in the problem's range of speeds")
-    with mistakes.under("speed"):
-        if quantity == "critical" and "v" not in names and isinstance(problem.speed, SpeedRange):
-            raise ProblemError("is a range, and each speed has its own critical values: give one speed, or an axis v")
+    if quantity in QUANTITIES and quantity not in ABOUT_CURVE:
+        for name in sorted(CURVE.keys() & set(names)):
+            with mistakes.under(name):
+                raise ProblemError(f"is a number of the curve, on which {quantity} does not depend: ask for design")
+    with mistakes.under("conditions" if problem.conditions else "speed"):
+        left = remaining(problem, quantity, names)
+        if quantity in ALL_AT_ONE and not left.is_one:
+            own = f"and each condition has its own {quantity.replace('_', ' ')} values"
+            raise ProblemError(f"differ in {', '.join(_varied(left))}, {own}: give one, or axes of these")
     return mistakes
+
+
+def _varied(conditions: ConditionSet) -> list[str]:
+    """Return the names of what varies from condition to condition."""
+    told = [each.described for each in conditions.corners]
+    names = dict.fromkeys(name for each in told for name in each)
+    return ["v" if name == "speed" else name for name in names if len({each.get(name) for each in told}) > 1]
 
 
 def _check_derived(task: Task, axes: tuple[Axis, ...]) -> None:

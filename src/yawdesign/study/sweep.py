@@ -10,7 +10,7 @@ from typing import Any
 
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress, as_executor
-from yawdesign.problem.running import SpeedRange
+from yawdesign.problem.running import CURVE
 from yawdesign.problem.stopping import held, request_to_stop
 from yawdesign.study.axes import Axis
 from yawdesign.study.executors import fill
@@ -63,7 +63,8 @@ def sweep(
     Parameters
     ----------
     problem : Problem
-        Where everything comes from that is no axis. An answer holds for all its speeds, unless ``v`` is an axis.
+        Where everything comes from that is no axis. An answer holds for all its conditions, of ranges at some values
+        of each; an axis replaces those of its name.
     of : str
         ``stable``, ``decay_rate`` [1/s], ``damping_ratio`` [-], ``margin`` (the problem's objective), ``critical``
         (all critical values of C_s [N s/m]), ``C_sl`` (lower end of the interval the design lies in [N s/m]; 0 where
@@ -82,8 +83,9 @@ def sweep(
         Points that are computed at a time.
     **axes
         By name: any parameter of the problem (``lambda_`` for the conicity), ``v`` [m/s], ``f_m`` [Hz], ``xi_m`` or
-        ``creep_factor`` (of f_11 and f_22). Values in rising order, numbers in SI or texts with a unit; or a text
-        ``"150 km/h:450 km/h:60"``, with ``:log`` behind it for equal ratios.
+        ``creep_factor`` (of f_11 and f_22); of ``design`` and ``C_sl`` any number of the curve. Values in rising order,
+        numbers in SI or texts with a unit; or a text ``"150 km/h:450 km/h:60"``, with ``:log`` behind it for equal
+        ratios.
 
     Returns
     -------
@@ -221,10 +223,11 @@ def _boundary(asked: Request, executor: Any) -> tuple[BaseException | None, Swee
     axes = _axes_of_boundary(asked)
     if len(axes) != 1 or axes[0].values.size > MOST_DRAWN:
         return None, None
-    if axes[0].name != "v" and isinstance(asked.problem.speed, SpeedRange):
-        return None, None  # each speed has its own
+    lines = asked.about("critical", axes)
+    if axes[0].name in CURVE or len(lines.task.question.conditions) > 1:
+        return None, None  # each condition has its own
     try:
-        return None, answered(asked.about("critical", axes), executor=executor)
+        return None, answered(lines, executor=executor)
     except Exception as error:  # noqa: BLE001 - no fault may cost the points that are finished
         if isinstance(error, IncompleteSweepError) and error.interrupted:
             return error.__cause__, None

@@ -186,8 +186,8 @@ class Vehicle:
     @classmethod
     def of(cls, problem: Problem) -> tuple["Vehicle", ...]:
         """Return the vehicle of a problem under each of its conditions."""
-        p = problem.parameters()
-        return tuple(Model.of(problem).at(condition.applied(p)) for condition in conditions(problem))
+        model, p = Model.of(problem), problem.parameters()
+        return tuple(model.at(condition.applied(p)) for condition in conditions(problem))
 
     def under(self, condition: Condition) -> "Vehicle":
         """Return the vehicle under a condition."""

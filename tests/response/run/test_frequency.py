@@ -53,7 +53,7 @@ def test_amplitudes_are_attributes_and_entries():
     assert list(result.amplitudes) == list(Model().coordinates)
     for name, values in result.amplitudes.items():
         assert getattr(result, name) is values
-    head = ["wavelength", "frequency", "input", "speed", "C_s", "stable", "checked"]
+    head = ["wavelength", "frequency", "input", "speed", "C_s", "stable", "checked", "condition"]
     bogies, _ = families()
     assert list(result.to_dict()) == [*head, *bogies]
     assert {name for name in bogies if result.to_dict()[name] is None} == {"th_b"}

@@ -10,11 +10,13 @@ from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 from yawdesign.exports.described_vehicle import in_words, short_name
 from yawdesign.exports.equations_of_motion import equations_of_motion, motion_source
 from yawdesign.exports.fmu.description import build_description, header, model_description
 from yawdesign.exports.fmu.variables import variables
+from yawdesign.hunting.chosen_condition import AS_WRITTEN, Asked, chosen, other_condition_in_words
 from yawdesign.hunting.many.c_compiler import compilers, run, why_none
 from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem, ProblemError
@@ -37,14 +39,18 @@ class Fmu(Result):
         Machine for which it holds a library, such as ``x86_64-linux``; None if it holds C code only.
     message : str
         Why there is no library; empty if there is one.
+    condition : mapping
+        Whose values are the start values: ``values`` ("as written", "worst" or "given"), ``speed`` [m/s] and
+        what else is not as written, in SI units.
     """
 
     path: str
     platform: str | None
     message: str
+    condition: Mapping[str, Any]
 
 
-def write_fmu(problem: Problem, path: str | Path, *, replace: bool = False) -> Fmu:
+def write_fmu(problem: Problem, path: str | Path, *, replace: bool = False, condition: Asked = AS_WRITTEN) -> Fmu:
     """Write the linear lateral motion of a problem's vehicle as an FMU (FMI 3, model exchange).
 
     Every parameter of bogie and car body and the speed ``v`` are tunable parameters; the track under each wheelset is
@@ -53,11 +59,14 @@ def write_fmu(problem: Problem, path: str | Path, *, replace: bool = False) -> F
     Parameters
     ----------
     problem : Problem
-        With a value of ``C_s``. Of a range of speeds the highest is the start value of ``v``.
+        With a value of ``C_s``. Of several speeds the highest is the start value of ``v``.
     path : str or Path
         The file to write, ``*.fmu``.
     replace : bool
         Whether a file that is there is replaced.
+    condition : str or mapping
+        ``"as written"`` (default), ``"worst"`` of all conditions, or values such as ``{"lambda": 0.4, "creep_factor":
+        0.5, "speed": "330 km/h", "load": "laden", "tolerance.K_m": "-10 %"}``: the others stay as written.
 
     Returns
     -------
@@ -76,29 +85,35 @@ def write_fmu(problem: Problem, path: str | Path, *, replace: bool = False) -> F
     >>> import yawdesign as yd
     >>> fmu = yd.write_fmu(yd.table1(), "bogie.fmu")  # doctest: +SKIP
     """
-    path = Path(path)
+    asked = chosen(problem, condition)
+    return write_fmu_of(asked.problem, asked.described(max(asked.problem.speeds)), Path(path), replace=replace)
+
+
+def write_fmu_of(problem: Problem, condition: Mapping[str, Any], path: Path, *, replace: bool = False) -> Fmu:
+    """Write the FMU of a problem with a condition in its values, as in `write_fmu`."""
     if path.suffix != ".fmu":
         raise ProblemError(f"{path.name} is not the name of an FMU: it must end in .fmu")
     refuse_existing(path, replace)
     name = f"yawdesign_{short_name(Model.of(problem))}"
-    texts = _texts(problem, name)
+    texts = _texts(problem, condition, name)
     library, message = _library(texts)
     place = f"binaries/{platform_name()}/{name}{library_suffix()}"
     write_whole(path, _archive({**texts, **({place: library} if library else {})}), replace=replace)
-    return Fmu(str(path), platform_name() if library else None, message)
+    return Fmu(str(path), platform_name() if library else None, message, condition)
 
 
-def _texts(problem: Problem, name: str) -> dict[str, bytes]:
+def _texts(problem: Problem, condition: Mapping[str, Any], name: str) -> dict[str, bytes]:
     """Return the files of the FMU, but for the library."""
     vehicle = Model.of(problem).at(problem.parameters(), C_s=given_damping(problem), v=max(problem.speeds))
     motion = equations_of_motion(vehicle)
     table = variables(motion, vehicle.p)
     source, sizes = motion_source(motion)
+    title = _title(problem, condition)
     frame = files("yawdesign.exports.fmu").joinpath("fmi3.c").read_text(encoding="utf-8")
 
     def texts(token: str) -> dict[str, str]:
         return {
-            "modelDescription.xml": model_description(table, name=name, token=token, title=_title(problem)),
+            "modelDescription.xml": model_description(table, name=name, token=token, title=title),
             "sources/buildDescription.xml": build_description(name),
             "sources/model.h": header(table, token=token, sizes=sizes),
             "sources/motion.c": source,
@@ -109,9 +124,10 @@ def _texts(problem: Problem, name: str) -> dict[str, bytes]:
     return {file: text.encode() for file, text in texts(f"{{{token}}}").items()}
 
 
-def _title(problem: Problem) -> str:
+def _title(problem: Problem, condition: Mapping[str, Any]) -> str:
     kind = ", ".join((f"{problem.equations} equations", *in_words(problem)))
-    text = f"Lateral motion of a {problem.bogie.kind} bogie ({kind}), linear, in SI units"
+    under = other_condition_in_words(condition)
+    text = f"Lateral motion of a {problem.bogie.kind} bogie ({kind}), linear, in SI units{under and '; '}{under}"
     return f"{problem.title}. {text}" if problem.title else text
 
 

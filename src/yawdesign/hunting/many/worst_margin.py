@@ -76,6 +76,10 @@ class WorstMargin:
 
     def of(self, sets: ParameterSets) -> Float:
         """Return the margin. Parameter as in `exceeds`."""
+        return self.worst(sets)[0]
+
+    def worst(self, sets: ParameterSets) -> tuple[Float, Index]:
+        """Return the margin, and the number of the condition under which it is that. Parameter as in `exceeds`."""
         first, *others = self._order
         worst = self.measure.of(sets.under(self.conditions[first]))
         which = np.full(sets.size, first)
@@ -85,7 +89,7 @@ class WorstMargin:
             lower = least < worst
             worst[lower], which[lower] = least[lower], np.array(others)[value.argmin(axis=0)][lower]
         self._worst_of += np.bincount(which, minlength=len(self.conditions))
-        return worst
+        return worst, which
 
     def _where_less(self, sets: ParameterSets, level: Float, chosen: Sequence[int]) -> Float:
         """Return margins under some conditions, shape (conditions, n); infinite where they surely exceed a level."""
@@ -120,7 +124,9 @@ def under_conditions(model: Model, p: Mapping[str, Any], ways: Sequence[tuple[Co
 
 
 def _end_to_end(columns: Sequence[tuple[Any, int]]) -> Any:
-    first, _ = columns[0]
-    if not np.ndim(first) and all(x is first for x, _ in columns):
-        return first
-    return np.concatenate([np.broadcast_to(x, size) for x, size in columns])
+    values, sizes = zip(*columns, strict=True)
+    if any(isinstance(x, np.ndarray) for x in values):
+        return np.concatenate([np.broadcast_to(x, size) for x, size in columns])
+    if all(x is values[0] for x in values):
+        return values[0]
+    return np.repeat(np.array(values, dtype=float), sizes)

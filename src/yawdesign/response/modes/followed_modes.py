@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from yawdesign.hunting.arrays import Complex, Float
+from yawdesign.hunting.chosen_condition import AS_WRITTEN, Asked, chosen
 from yawdesign.hunting.eigenvalues import EXACT, backward_error, folded_matrix
-from yawdesign.hunting.stability import stability
-from yawdesign.hunting.verdict import given_damping
+from yawdesign.hunting.verdict import given_damping, least_stable
 from yawdesign.problem import PARAMETERS, Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
 from yawdesign.problem.result import Result
@@ -90,6 +90,9 @@ class FollowedModes(Result):
         Largest backward error of the characteristic polynomial at the eigenvalues [-].
     checked : bool
         True if every eigenvalue is a root of the characteristic polynomial, and every link is sure.
+    condition : mapping
+        Under which condition: ``values`` ("as written", "worst" or "given"), ``speed`` [m/s] and what else is not as
+        written, in SI units; without the parameter that was swept.
     """
 
     axis: str
@@ -106,15 +109,22 @@ class FollowedModes(Result):
     evaluations: int
     residual: float
     checked: bool
+    condition: Mapping[str, Any]
 
 
-def follow_modes(problem: Problem, **axis: Sequence[float | str] | NDArray[np.float64]) -> FollowedModes:
+def follow_modes(
+    problem: Problem, *, condition: Asked = AS_WRITTEN, **axis: Sequence[float | str] | NDArray[np.float64]
+) -> FollowedModes:
     """Follow the modes of a problem's bogie along one parameter.
 
     Parameters
     ----------
     problem : Problem
         The bogie; with one speed, unless the speed is what varies.
+    condition : str or mapping
+        ``"as written"`` (default), ``"worst"`` of all conditions, or values such as ``{"lambda": 0.4, "creep_factor":
+        0.5, "speed": "330 km/h", "load": "laden", "tolerance.K_m": "-10 %"}``: the others stay as
+        written. What is followed goes through it.
     **axis
         One parameter and its values in rising or falling order, SI numbers or texts with a unit: ``v``, or any
         parameter of the bogie, such as ``C_s=["100 kN s/m", "1 MN s/m"]``.
@@ -136,6 +146,8 @@ def follow_modes(problem: Problem, **axis: Sequence[float | str] | NDArray[np.fl
     >>> [round(float(f), 3) for f in paths.frequency[:, hunting]]
     [1.307, 2.209, 2.553]
     """
+    asked = chosen(problem, condition)
+    problem = asked.problem
     name, row, values = _axis(problem, axis)
     C_s = None if name == "C_s" else given_damping(problem)
     vehicle = Model.of(problem).at(problem.parameters(), v=problem.speeds[0])
@@ -152,6 +164,7 @@ def follow_modes(problem: Problem, **axis: Sequence[float | str] | NDArray[np.fl
     names = tuple(all_names[k] for k in kept)
     s = np.where(branches.imag >= 0, branches, complex(np.nan, np.nan))[:, kept]
     certainty = np.hstack([path.certainty for path in paths])[:, kept]
+    speed = None if name == "v" else float(problem.speeds[0])
     label = {int(k): mode for k, mode in zip(kept, names, strict=True)}
     meetings = _meetings(paths, label)
     polynomial = vehicle.replace(**{name: values[:, None]}).polynomial
@@ -167,11 +180,12 @@ def follow_modes(problem: Problem, **axis: Sequence[float | str] | NDArray[np.fl
         damping_ratio=-s.real / np.where(s == 0, 1, np.abs(s)),
         certainty=certainty,
         meetings=meetings,
-        speed=None if name == "v" else float(problem.speeds[0]),
+        speed=speed,
         C_s=C_s,
         evaluations=matrices.cache_info().misses,
         residual=residual,
         checked=residual < EXACT and sure,
+        condition=asked.described(speed, without=name),
     )
 
 
@@ -226,7 +240,7 @@ def _home(problem: Problem, vehicle: Vehicle, name: str, values: Float, matrices
 
     Where the problem has none, or there has a damper less than along the axis, it is the least one of the axis.
     """
-    own = stability(problem).speed if name == "v" else vehicle.p.get(name)
+    own = least_stable(problem)[1].speed if name == "v" else vehicle.p.get(name)
     if own is None or len(matrices(float(own))) != len(matrices(float(values[0]))):
         return float(values.min())
     return float(own)

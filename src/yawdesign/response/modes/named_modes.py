@@ -3,11 +3,13 @@
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.linalg as sl
 
 from yawdesign.hunting.arrays import Complex, Float
+from yawdesign.hunting.chosen_condition import AS_WRITTEN, Asked, chosen
 from yawdesign.hunting.eigenvalues import EXACT, backward_error, folded_matrix
 from yawdesign.hunting.verdict import Mode, least_stable
 from yawdesign.problem import Problem
@@ -86,6 +88,9 @@ class Modes(Result):
         The vehicle in SI units.
     checked : bool
         True if the stability was checked, and every eigenvalue is a root of the characteristic polynomial.
+    condition : mapping
+        Under which condition: ``values`` ("as written", "worst" or "given"), ``speed`` [m/s] and what else is not as
+        written, in SI units.
     """
 
     modes: tuple[NamedMode, ...]
@@ -96,20 +101,24 @@ class Modes(Result):
     equations: str
     parameters: Mapping[str, float]
     checked: bool
+    condition: Mapping[str, Any]
 
 
-def modes(problem: Problem) -> Modes:
+def modes(problem: Problem, *, condition: Asked = AS_WRITTEN) -> Modes:
     """Return the modes of a problem's vehicle with the yaw damping written in it.
 
     Parameters
     ----------
     problem : Problem
-        With a value of ``C_s``. Of a range of speeds the one of least decay rate is taken.
+        With a value of ``C_s``. Of several speeds the one of least decay rate is taken.
+    condition : str or mapping
+        ``"as written"`` (default), ``"worst"`` of all conditions, or values such as ``{"lambda": 0.4, "creep_factor":
+        0.5, "speed": "330 km/h", "load": "laden", "tolerance.K_m": "-10 %"}``: the others stay as written.
 
     Raises
     ------
     ProblemError
-        If the problem has no ``C_s``.
+        If the problem has no ``C_s``, or the condition is not accepted.
 
     Examples
     --------
@@ -118,7 +127,8 @@ def modes(problem: Problem) -> Modes:
     >>> first.name, round(first.frequency, 4), round(first.damping_ratio, 5)
     ('wheelset hunting 1', 2.5535, 0.07113)
     """
-    vehicle, verdict = least_stable(problem)
+    asked = chosen(problem, condition)
+    vehicle, verdict = least_stable(asked.problem)
     found = modes_at(vehicle)
     hunting = hunting_mode(found)
     exact = all(mode.residual < EXACT for mode in found)
@@ -129,8 +139,9 @@ def modes(problem: Problem) -> Modes:
         C_s=verdict.C_s,
         speed=verdict.speed,
         equations=problem.equations,
-        parameters={name: float(value) for name, value in problem.parameters().items()},
+        parameters={name: float(value) for name, value in asked.problem.parameters().items()},
         checked=verdict.checked and exact,
+        condition=asked.described(verdict.speed),
     )
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from yawdesign.hunting.arrays import Complex, Float
+from yawdesign.hunting.chosen_condition import AS_WRITTEN, Asked, Chosen, chosen
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
@@ -44,6 +45,9 @@ class FrequencyResponse(Result):
         Whether free motions die out.
     checked : bool
         True if state matrix and polynomial matrix give the same to 1e-9.
+    condition : mapping
+        Under which condition: ``values`` ("as written", "worst" or "given"), ``speed`` [m/s] and what else is not as
+        written, in SI units.
     amplitudes : mapping of str to complex or ndarray
         By coordinate, per unit of the input: lateral ones such as ``y_b`` [m], angles such as ``phi_b`` [rad]. Each is
         an attribute of the result as well, ``result.y_b``; what a vehicle does not have, such as a motor, is None.
@@ -56,6 +60,7 @@ class FrequencyResponse(Result):
     C_s: float
     stable: bool
     checked: bool
+    condition: Mapping[str, Any]
     amplitudes: Mapping[str, Any]
 
     def __getattr__(self, name: str) -> Any:
@@ -76,6 +81,7 @@ def frequency_response(
     input: str = "alignment",  # noqa: A002 - the word of the field
     *,
     speed: Any = None,
+    condition: Asked = AS_WRITTEN,
 ) -> FrequencyResponse:
     """Return how the vehicle answers a harmonic track.
 
@@ -90,6 +96,9 @@ def frequency_response(
         conicity as in (W lambda/b)(y_w - y_a), 2 f_22 (b lambda/r)(y_w - y_a) and W theta.
     speed : float or str, optional
         Speed [m/s] or text with a unit; the problem's own if it has a single one.
+    condition : str or mapping
+        ``"as written"`` (default), ``"worst"`` of all conditions, or values such as ``{"lambda": 0.4, "creep_factor":
+        0.5, "speed": "330 km/h", "load": "laden", "tolerance.K_m": "-10 %"}``: the others stay as written.
 
     Returns
     -------
@@ -113,10 +122,10 @@ def frequency_response(
         lengths = _lengths(wavelength)
     with mistakes.under("input"):
         as_choice(input, INPUTS)
-    with mistakes.under("speed"):
-        v = one_speed(problem, speed)
+    with mistakes.under(""):
+        asked, v = at_one_speed(problem, condition, speed)
     mistakes.report()
-    system = system_at(problem, v)
+    system = system_at(asked.problem, v)
     omega = 2 * np.pi * v / lengths
     u = system.wheelsets.harmonic(omega, input)
     x = states(system, omega, u)[:, : len(system.coordinates)]
@@ -134,6 +143,7 @@ def frequency_response(
         C_s=system.C_s,
         stable=system.stable,
         checked=_same(x, other),
+        condition=asked.described(v),
         amplitudes={name: shaped(x[:, k]) for k, name in enumerate(system.coordinates)},
     )
 
@@ -147,13 +157,18 @@ def _lengths(wavelength: Any) -> Float:
     return np.array([float(WAVELENGTH.check(x)) for x in values])
 
 
-def one_speed(problem: Problem, speed: Any = None) -> float:
-    """Return a speed given as number or text [m/s], or the single one of the problem."""
-    if speed is not None:
-        return float(SPEED.accept(speed))
-    if len(problem.speeds) > 1:
-        raise ProblemError("is missing: the problem has a range of speeds, say which one, such as '300 km/h'")
-    return float(problem.speeds[0])
+def at_one_speed(problem: Problem, condition: Asked, speed: Any = None) -> tuple[Chosen, float]:
+    """Return a problem under a condition, and the speed [m/s]: a given one, or the single one that there is then."""
+    mistakes, given = Mistakes(), []
+    with mistakes.under("speed"):
+        given = [] if speed is None else [SPEED.accept(speed)]
+    with mistakes.under(""):
+        asked = chosen(problem, condition, given)
+    mistakes.report()
+    if len(asked.speeds) > 1:
+        text = "is missing: the problem has a range of speeds, say which one, such as '300 km/h'"
+        raise ProblemError(text).under("speed")
+    return asked, float(asked.speeds[0])
 
 
 def states(system: System, omega: Float, u: Complex) -> Complex:

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from yawdesign.hunting.chosen_condition import AS_WRITTEN, Asked, Chosen, chosen
 from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress, checked
@@ -60,6 +61,9 @@ class Simulation(Result):
         One for each speed.
     checked : bool
         True if all checks of all runs hold.
+    condition : mapping
+        Under which condition: ``values`` ("as written", "worst" or "given"), ``speed`` [m/s] if there
+        is one only, and what else is not as written, in SI units.
     histories : tuple of History
         One for each speed; they are not part of `to_dict`.
     """
@@ -75,6 +79,7 @@ class Simulation(Result):
     dampers: tuple[DamperComponent, ...]
     runs: tuple[Run, ...]
     checked: bool
+    condition: Mapping[str, Any]
     histories: tuple[History, ...]
 
     def to_dict(self) -> dict[str, Any]:
@@ -109,6 +114,7 @@ def simulate(
     offset: Any = None,
     band: Any = None,
     seed: int | None = None,
+    condition: Asked = AS_WRITTEN,
     progress: Progress = lambda text, part: None,
 ) -> Simulation:
     """Run a problem's vehicle over a track: its bogie alone, or a car body on two of them.
@@ -143,6 +149,10 @@ def simulate(
         ``("0.024 1/m", "0.333 1/m")``.
     seed : int, optional
         Of a spectrum's random phases; 0 if not given.
+    condition : str or mapping
+        ``"as written"`` (default), ``"worst"`` of all conditions, the speeds among them, or values such as
+        ``{"lambda": 0.4, "creep_factor": 0.5, "speed": "330 km/h", "load": "laden", "tolerance.K_m": "-10 %"}``: the
+        others stay as written.
     progress : callable
         Called with a text and the part that is done, 0 to 1.
 
@@ -169,7 +179,7 @@ def simulate(
     mistakes = Mistakes()
     for name, read in (
         ("track", lambda: as_track(track, band=_band(band), seed=as_seed(seed))),
-        ("speed", lambda: _speeds(problem, speed)),
+        ("speed", lambda: _speeds(speed)),
         ("duration", lambda: _positive(duration, "s")),
         ("length", lambda: _positive(length, "m", alone=duration is None)),
         ("step", lambda: _positive(step, "s")),
@@ -180,18 +190,18 @@ def simulate(
             found[name] = read()
     with mistakes.under(""):
         given_damping(problem)
+        asked = chosen(problem, condition, found.pop("speed", ()))
     mistakes.report()
-    speeds = found.pop("speed")
-    return _simulation(problem, Plan(**found), speeds, progress)
+    return _simulation(asked, Plan(**found), progress)
 
 
-def _simulation(problem: Problem, plan: Plan, speeds: Sequence[float], progress: Progress) -> Simulation:
+def _simulation(asked: Chosen, plan: Plan, progress: Progress) -> Simulation:
     runs: list[Run] = []
     histories: list[History] = []
-    systems = [system_at(problem, v) for v in speeds]
+    systems = [system_at(asked.problem, float(v)) for v in asked.speeds]
     _check_steps(systems, plan)
     for k, system in enumerate(systems):
-        progress(f"running at {3.6 * system.v:.4g} km/h", k / len(speeds))
+        progress(f"running at {3.6 * system.v:.4g} km/h", k / len(systems))
         one, history = run(system, plan)
         runs.append(one)
         histories.append(history)
@@ -200,7 +210,7 @@ def _simulation(problem: Problem, plan: Plan, speeds: Sequence[float], progress:
     return Simulation(
         track=plan.track.name,
         notes=plan.track.notes,
-        C_s=given_damping(problem),
+        C_s=given_damping(asked.problem),
         settles=all(one.settles for one in runs),
         speed=worst.speed,
         rms=worst.rms,
@@ -209,6 +219,7 @@ def _simulation(problem: Problem, plan: Plan, speeds: Sequence[float], progress:
         dampers=dampers,
         runs=tuple(runs),
         checked=all(one.checked for one in runs) and all(damper.checked for damper in dampers),
+        condition=asked.described(worst.speed if len(runs) == 1 else None),
         histories=tuple(histories),
     )
 
@@ -277,13 +288,14 @@ def _band(band: Any) -> Band | None:
     return Band(*band)
 
 
-def _speeds(problem: Problem, speed: Any) -> tuple[float, ...]:
+def _speeds(speed: Any) -> tuple[float, ...]:
+    """Return speeds that are given in place of those of the problem [m/s]."""
     if speed is None:
-        return tuple(float(v) for v in problem.speeds)
+        return ()
     listed = as_several(speed)
     if not listed:
         raise ProblemError("no speed is given")
-    return tuple(float(SPEED.accept(v)) for v in listed)
+    return tuple(SPEED.accept(v) for v in listed)
 
 
 def _positive(value: Any, unit: str, *, alone: bool = True) -> float | None:

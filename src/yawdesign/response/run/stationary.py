@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from yawdesign.hunting.arrays import Float
+from yawdesign.hunting.chosen_condition import AS_WRITTEN, Asked
 from yawdesign.problem import Problem, ProblemError
-from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.result import Result
-from yawdesign.response.run.frequency import one_speed, outputs
+from yawdesign.response.run.frequency import at_one_speed, outputs
 from yawdesign.response.run.ride_comfort import accelerations, horizontal_weight
 from yawdesign.response.run.system import System, system_at
 from yawdesign.response.track.lines import INPUTS
@@ -41,6 +41,9 @@ class StationaryResponse(Result):
         empty without a car body.
     method : str
         How it was found.
+    condition : mapping
+        Under which condition: ``values`` ("as written", "worst" or "given"), ``speed`` [m/s] and what else is not as
+        written, in SI units.
     """
 
     track: str
@@ -51,9 +54,12 @@ class StationaryResponse(Result):
     rms_of: Mapping[str, Mapping[str, float]]
     rms_weighted: Mapping[str, float]
     method: str
+    condition: Mapping[str, Any]
 
 
-def stationary_response(problem: Problem, track: Any = "german-low", *, speed: Any = None) -> StationaryResponse:
+def stationary_response(
+    problem: Problem, track: Any = "german-low", *, speed: Any = None, condition: Asked = AS_WRITTEN
+) -> StationaryResponse:
     """Return the stationary root mean square of every response, by integrating |H|^2 S over the band.
 
     Parameters
@@ -64,6 +70,9 @@ def stationary_response(problem: Problem, track: Any = "german-low", *, speed: A
         A spectrum, as in `simulate`; texts have the band from 0.3 to 40 Hz.
     speed : float or str, optional
         Speed [m/s] or text with a unit; the problem's own if it has a single one.
+    condition : str or mapping
+        ``"as written"`` (default), ``"worst"`` of all conditions, or values such as ``{"lambda": 0.4, "creep_factor":
+        0.5, "speed": "330 km/h", "load": "laden", "tolerance.K_m": "-10 %"}``: the others stay as written.
 
     Raises
     ------
@@ -80,11 +89,8 @@ def stationary_response(problem: Problem, track: Any = "german-low", *, speed: A
     road = as_track(track)
     if not isinstance(road, RandomTrack):
         raise ProblemError(f"track: {road.name} is not random, a stationary root mean square needs a spectrum")
-    mistakes = Mistakes()
-    with mistakes.under("speed"):
-        v = one_speed(problem, speed)
-    mistakes.report()
-    system = system_at(problem, v)
+    asked, v = at_one_speed(problem, condition, speed)
+    system = system_at(asked.problem, v)
     if not system.stable:
         raise ProblemError(f"the vehicle is unstable at {3.6 * system.v:.4g} km/h: there is no stationary motion")
     found = {which: _mean_squares(system, road, which) for which in INPUTS}
@@ -98,6 +104,7 @@ def stationary_response(problem: Problem, track: Any = "german-low", *, speed: A
         rms_of={which: system.named(np.sqrt(squares[0])) for which, squares in found.items()},
         rms_weighted={name: float(weighted[system.outputs[name]]) for name in accelerations(system)},
         method="integral over the spectrum",
+        condition=asked.described(v),
     )
 
 

@@ -3,9 +3,9 @@
 import re
 from dataclasses import dataclass, replace
 from os import PathLike, fspath
-from pathlib import Path
 
 from yawdesign.problem.diagnostics import Diagnostic, ProblemError
+from yawdesign.problem.text_files import text_of
 from yawdesign.problem.units import Unit, parse_unit, shortened
 
 MOST_BYTES = 50_000_000  # about 400 km of track, measured every quarter of a metre
@@ -84,7 +84,7 @@ def read_sheet(path: str | PathLike[str]) -> Sheet:
         With file, line and column of everything that is wrong with the heads.
     """
     name = fspath(path)
-    every = enumerate(text_of(name).split("\n"), 1)
+    every = enumerate(text_of(name, MOST_BYTES).split("\n"), 1)
     lines = [(n, line) for n, line in every if line.strip() and line.lstrip()[0] != "#"]
     if not lines:
         raise ProblemError([Diagnostic(path=name, message="the file is empty")])
@@ -93,39 +93,6 @@ def read_sheet(path: str | PathLike[str]) -> Sheet:
     (line, fields), *body = [(n, _split(text, separator)) for n, text in lines]
     sheet = Sheet(name, separator, line, [_heading(name, line, *field) for field in fields], body)
     return _with_units_below(sheet) if body and _has_units(body[0][1]) else sheet
-
-
-def text_of(name: str) -> str:
-    """Return the text of a file.
-
-    Parameters
-    ----------
-    name : str
-        Name of the file.
-
-    Raises
-    ------
-    ProblemError
-        If it cannot be read, is a device or a pipe, is too large, or is no UTF-8 text.
-    """
-    try:
-        return _decoded(Path(name))
-    except UnicodeDecodeError:
-        message = "is not UTF-8 text: save the file as UTF-8"
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        message = f"cannot be read: {reason}"
-    raise ProblemError([Diagnostic(path=name, message=message)])
-
-
-def _decoded(path: Path) -> str:
-    if path.is_fifo() or path.is_char_device() or path.is_block_device() or path.is_socket():
-        raise OSError("it is a device or a pipe: give the name of a file")
-    with path.open("rb") as file:
-        content = file.read(MOST_BYTES + 1)
-    if len(content) > MOST_BYTES:
-        raise OSError(f"it is larger than {MOST_BYTES / 1e6:g} MB: give a part of it")
-    return content.decode("utf-8-sig")
 
 
 def _split(line: str, separator: str) -> Fields:

@@ -1,0 +1,52 @@
+"""The command that judges a vehicle whose parameters have distributions."""
+
+from typing import Annotated
+
+import typer
+
+from yawdesign.cli.answering import (
+    AsJson,
+    Force,
+    ProblemFile,
+    ended,
+    mistakes_told,
+    progress_shown,
+    read_problem,
+    show,
+)
+
+
+def uncertainty(
+    file: ProblemFile,
+    samples: Annotated[int | None, typer.Option(help="How many; 1 048 576, fewer with many conditions.")] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Of the samples.")] = 0,
+    jobs: Annotated[int, typer.Option(min=1, help="Number of processes; 1: the threads of this one.")] = 1,
+    dask: Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")] = None,
+    plot: Annotated[str | None, typer.Option(help="Draw a picture: .png, .pdf or .svg.")] = None,
+    of: Annotated[str, typer.Option(help="What --plot draws: tornado (default), margin or C_sl.")] = "tornado",
+    force: Force = False,
+    as_json: AsJson = False,
+) -> None:
+    """Tell how likely the vehicle is unstable with its C_s, and which uncertain parameters matter."""
+    with mistakes_told():
+        from yawdesign.output import pictures, plots
+        from yawdesign.output.targets import Target, checked_targets
+        from yawdesign.output.uncertainty_plots import OF
+        from yawdesign.problem.diagnostics import ProblemError
+        from yawdesign.problem.table import as_choice
+        from yawdesign.study.executors import workers
+        from yawdesign.study.uncertainty import uncertainty as found
+
+        problem = read_problem(file)
+        try:
+            as_choice(of, OF)
+        except ProblemError as error:
+            raise error.under("--of") from None
+        (to_plot,) = checked_targets((Target("--plot", plot, pictures.PICTURES, force),), [file])
+        pictures.check_pictures(to_plot)
+        with workers(jobs, dask) as executor, progress_shown() as progress:
+            result = found(problem, samples=samples, seed=seed, executor=executor, progress=progress)
+        if to_plot:
+            pictures.write_picture(plots.plot(result, of=of), to_plot, replace=force)
+        show(result, as_json)
+    raise ended(checked=result.checked, feasible=result.stable)
