@@ -138,7 +138,9 @@ def excess(each: Iterable[Parameters], variables: Iterable[str], curve: Curve, g
         return f"T/(4 Q a), {at} has no bound without an axle load (W = 0)"
     resistance, others = rotational_resistance(p, p["C_s"], curve), [name for name in given if name not in names]
     known = [enough(q, q["C_s"], curve, others) for q in every]
-    values = {name: (max if name in CURVE else min)(q[name] for q in known) for name in known[0] if _in_all(name, known)}
+    values = {
+        name: (max if name in CURVE else min)(q[name] for q in known) for name in known[0] if _in_all(name, known)
+    }
     told = " or ".join(f"{name} = {format_quantity(x, _ROWS[name].unit)}" for name, x in values.items())
     return f"T/(4 Q a), {at} is {resistance:.6g}, and the limit is {curve.limit:.6g}; it is kept with {told}"
 
