@@ -11,11 +11,12 @@ from typing import Any
 from yawdesign.hunting.all_conditions import Judged
 from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import PARAMETERS, Problem, ProblemError, Written, exact
-from yawdesign.problem.condition import CREEP_FACTOR, MOST_TOLERANCE, TOLERANCE, Condition, Conditions, Load
+from yawdesign.problem.condition import CREEP_FACTOR, TOLERANCE, Condition, Conditions, Load
 from yawdesign.problem.condition_texts import change_text
 from yawdesign.problem.diagnostics import Mistakes, suggestion, unknown_key
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_quantity, key_of, shown
+from yawdesign.problem.written_conditions import MOST_TOLERANCE
 
 AS_WRITTEN, WORST, GIVEN = "as written", "worst", "given"
 VALUES = "values"  # the key in a result's `condition` that says which of them it is
