@@ -18,6 +18,7 @@ from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress
 
 SLACK = 1e-3  # of the least change: so much more is told, with which a search finds more than one design
+NOTHING = 1e-7  # a change by less, relative, is none
 FIRST = 192  # points that give a first level
 MOST_POINTS, BLOCK = 131_072, 16_384  # in three variables and more; each one less takes a quarter of it
 PASSED = 48  # points of a block that are better than all before and get a value
@@ -83,12 +84,19 @@ def relaxations(
         Of the search points.
     progress : callable, optional
         Called with a text and the share that is done, 0 ... 1.
+
+    Returns
+    -------
+    tuple of Relaxation
+        Of a number that may go up or down the smaller change; none if there is a design without any.
     """
     every, found = ways(problem), list[Relaxation]()
     anchors = () if design is None else (dict(design),)
     for k, way in enumerate(every):
         progress(f"relaxing {way.name}", k / len(every))
         found.append(_relaxation(RelaxedSpace(problem, anchors_given=anchors, way=way), seed))
+        if found[-1].change is not None and abs(found[-1].change) < NOTHING:
+            return ()
     return tuple(sorted(_one_of_each(found), key=_size))
 
 
@@ -164,8 +172,10 @@ def conflict(problem: Problem, *, seed: int = 0) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        Keys of a problem file, and ``"stability"``. There may be other such sets.
+        Keys of a problem file, and ``"stability"``. There may be other such sets; none if there is a design.
     """
+    if _is_possible(problem, 0.0, seed):
+        return ()
     bounds = [f"design.variables.{name}" for name in problem.design.variables]
     curve = [] if problem.curve is None else ["curve.limit"]
     left = [*(f"requirements.{each.name}" for each in problem.requirements), STABILITY, *bounds, *curve]
