@@ -11,7 +11,6 @@ from yawdesign.damper.curving import curving_limit, enough, excess, rotational_r
 from yawdesign.damper.design_space import MISSED, Space
 from yawdesign.damper.relaxations import SLACK, conflict, relaxations, relaxed
 from yawdesign.damper.relaxed_space import RelaxedSpace
-from yawdesign.damper.search import search
 
 DAMPER_ONLY = yd.Design(variables={"C_s": yd.Variable(min=1e4, max=1e7)})
 TABLE1 = yd.table1().replace(design=DAMPER_ONLY)
@@ -24,12 +23,10 @@ def of_wheel():
     return {one.name: one for one in relaxations(WHEEL)}
 
 
-def best_merit(problem):
-    """Return the merit of the best design that the search of every optimum finds."""
+def has_design(problem):
+    """Return whether any of 20 001 dampings is stable and meets all requirements."""
     space = Space(problem)
-    if not np.all(space.feasible(space.values(space.gentlest))):
-        return -np.inf
-    return float(space.margins_at(search(space, 0, lambda text, part: None)[:, :1])[0])
+    return space.beats_at(np.linspace(0, 1, 20_001)[None, :], np.zeros(20_001)).any()
 
 
 def short_of(relaxation):
@@ -46,8 +43,8 @@ def assert_enough_and_needed(problem, relaxation):
     assert float(np.squeeze(space.margins(values))) == pytest.approx(relaxation.margin, rel=1e-9)
     for name, variable in other.design.variables.items():
         assert variable.min <= relaxation.design[name] <= variable.max
-    assert best_merit(other) > 0
-    assert best_merit(relaxed(problem, short_of(relaxation))) <= 0
+    assert has_design(other)
+    assert not has_design(relaxed(problem, short_of(relaxation)))
 
 
 def test_the_wheel_load_and_five_per_cent_exclude_each_other():
@@ -65,7 +62,6 @@ def test_each_number_alone(of_wheel):
             relaxed(WHEEL, of_wheel[name])
 
 
-@pytest.mark.slow
 def test_each_change_is_enough_and_needed(of_wheel):
     for one in of_wheel.values():
         if one.met:
@@ -105,7 +101,7 @@ def test_the_optimum_says_it(of_wheel):
 @pytest.mark.slow
 def test_followed_the_optimum_meets_it(of_wheel):
     for one in of_wheel.values():
-        if one.met:
+        if one.name in ("curve.limit", "requirements.damping_ratio"):
             result = yd.optimise(relaxed(WHEEL, one))
             assert (result.status, result.conflict, result.relaxations) == ("optimal", (), ())
 
@@ -159,11 +155,10 @@ def test_ranges():
     )
     found = {one.name: one for one in relaxations(problem) if one.met}
     ratio = found["requirements.damping_ratio"]
-    assert ratio.value == pytest.approx(0.0678, rel=1e-3)
-    other = relaxed(problem, ratio)
-    space = Space(other)
-    assert space.with_worst(space.coordinates(ratio.design)) is None or ratio.met
+    assert ratio.value == pytest.approx(0.067885, rel=1e-4)
     assert conflict(problem) == ("requirements.damping_ratio",)
+    # At the corners alone more is reached: the worst lies inside, and is found.
+    assert has_design(problem.replace(requirements={"damping_ratio": 0.06795}))
 
 
 def test_the_verdict_at_a_share_is_that_of_the_changed_problem():
