@@ -73,7 +73,9 @@ def _critical(result: "ForwardDesign", ax: "Axes") -> None:
         shown = critical_shown(result)
         rows = list(dict.fromkeys(condition_text(x.condition) for x in shown))
         _draw_points(ax, shown, [rows.index(condition_text(x.condition)) for x in shown])
-        ax.set_yticks(range(len(rows)), [literal(row) for row in rows], fontsize="x-small")
+        ax.set_yticks([])
+        for k, row in enumerate(rows):
+            ax.annotate(literal(row), (0.01, k + 0.12), xycoords=ax.get_yaxis_transform(), fontsize="x-small")
         ax.set_ylim(-0.7, len(rows) - 0.3)
         return
     ax.set_yticks([])
