@@ -46,12 +46,12 @@ def choose(problem: Problem, *, executor: Any = None, progress: Progress = lambd
     >>> [(each.name, each.status) for each in found.candidates]
     [('D400', 'ok'), ('D10', 'unstable'), ('D1400', "exceeds the curve's limit")]
     """
+    spread: Callable[..., Iterable[Candidate]] = map if executor is None else as_executor(executor).map
     dampers = catalogue_of(problem)
     progress("all dampers on arrays", 0.0)
     groups = in_groups(problem, dampers)
     known = {each.name: each for group in groups for each in group.candidates()}
     rows = {damper.name: damper for damper in dampers}
-    spread: Callable[..., Iterable[Candidate]] = map if executor is None else as_executor(executor).map
     while todo := _next(known.values()):
         closer = sum(each.searched for each in known.values())
         progress(f"closer: {', '.join(each.name for each in todo[:3])} ...", min(0.1 + 0.08 * closer, 0.95))
