@@ -113,7 +113,8 @@ def as_catalogue(value: object, *, optional: bool = False) -> tuple[CatalogueDam
     if optional and isinstance(value, tuple) and not value:
         return ()
     if not isinstance(value, (list, tuple)) or not value:
-        what = "has no value" if value is None else "has no damper in it" if value == [] else f"{shown(value)} is none"
+        empty = isinstance(value, (list, tuple))
+        what = "has no value" if value is None else "has no damper in it" if empty else f"{shown(value)} is none"
         raise ProblemError(f"{what}, expected a catalogue of yaw dampers, {_EXAMPLE}")
     mistakes, found = Mistakes(), dict[str, CatalogueDamper]()
     for place, each in enumerate(value):
