@@ -29,9 +29,7 @@ def choice_tables(result: "Choice") -> RenderableType:
     rest = len(result.candidates) - len(shown)
     more = [Text(f"... and {rest} dampers more, which --json lists")] if rest else []
     ranges = [Text(NOT_SEARCHED)] if not all(each.searched for each in result.candidates if each.status == "ok") else []
-    return Group(
-        first, _table(result, shown), *more, *ranges, *_reasons(shown), *_cases(shown), *map(Text, result.notes)
-    )
+    return Group(first, _table(result, shown), *more, *ranges, *_reasons(shown), *_cases(shown), *notes)
 
 
 NOT_SEARCHED = (
