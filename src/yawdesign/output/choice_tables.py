@@ -29,6 +29,7 @@ def choice_tables(result: "Choice") -> RenderableType:
     rest = len(result.candidates) - len(shown)
     more = [Text(f"... and {rest} dampers more, which --json lists")] if rest else []
     ranges = [Text(NOT_SEARCHED)] if not all(each.searched for each in result.candidates if each.status == "ok") else []
+    notes = [line for note in result.notes for line in scope_lines(note)]
     return Group(first, _table(result, shown), *more, *ranges, *_reasons(shown), *_cases(shown), *notes)
 
 
