@@ -7,7 +7,7 @@ from rich.table import Table
 from rich.text import Text
 
 from yawdesign.output.condition_texts import condition_text
-from yawdesign.output.tables import damping, margin, titled
+from yawdesign.output.tables import damping, margin, scope_lines, titled
 from yawdesign.problem import to_unit
 from yawdesign.problem.quantities import format_number
 
