@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 import yawdesign as yd
+from yawdesign.damper.candidates import Candidate
 from yawdesign.damper.scored_rows import with_damper
 
 LISTS = {"lambda": [0.05, 0.10, 0.15, 0.25, 0.40], "creep_factor": [0.5, 0.75, 1.0]}
@@ -49,7 +50,7 @@ def main() -> None:
         print(f"{name}: {took:.2f} s ({used:.2f} s of this process); {same} of {asked.compared} the same alone")
 
 
-def agrees(problem: yd.Problem, candidate: yd.Candidate) -> bool:
+def agrees(problem: yd.Problem, candidate: Candidate) -> bool:
     damper = next(each for each in problem.design.catalogue if each.name == candidate.name)
     alone = yd.stability(with_damper(problem, damper))
     refused = candidate.status in ("unstable", "exceeds the curve's limit", "outside the bounds")

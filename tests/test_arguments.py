@@ -64,10 +64,12 @@ CLASSES = [
 def right(tmp_path_factory):
     """Return right values of what functions need, and of what makes them quick, by function or for all."""
     folder, problem = tmp_path_factory.mktemp("arguments"), yd.table1()
+    damper = yd.CatalogueDamper(name="x", damping=4e5, stiffness=2e7)
+    choosing = problem.replace(design=yd.Design(catalogue=(damper,)))
     modes = yd.modes(problem)
     numbers = iter(range(10**6))
     return lambda name: {
-        "problem": problem,
+        "problem": choosing if name == "choose" else problem,
         "result": modes,
         "to": folder / f"{next(numbers)}.svg",
         "path": folder / f"{next(numbers)}.fmu",
@@ -82,6 +84,7 @@ def right(tmp_path_factory):
         "max": 30.0,
         "spectrum": yd.SPECTRA["german-low"],
         "name": "x",
+        **{"damping": 4e5, "stiffness": 2e7},
         "densities": {"alignment": np.ones_like},
         "is_angle": False,
         **dict.fromkeys(("distance", "alignment", "cross_level"), np.arange(9.0)),

@@ -56,12 +56,12 @@ def best_of_catalogue(
     ProblemError
         If there is no catalogue, or no damper of it keeps the bounds.
     """
+    together, spread = (1, map) if executor is None else (TOGETHER, as_executor(executor).map)
     progress("comparing the dampers", 0.0)
     promised = _promised(problem)
     least = LEAST if _others(problem) else 1
     found: list[tuple[tuple[bool, float], CatalogueDamper, Optimum]] = []
     gain = 0.0
-    together, spread = (1, map) if executor is None else (TOGETHER, as_executor(executor).map)
     for batch in (promised[k : k + together] for k in range(0, len(promised), together)):
         level = max((merit for (_, merit), _, _ in found), default=-np.inf)
         some = [each for each in batch if len(found) < least or each[1] + CREDIT * gain >= level]

@@ -5,11 +5,12 @@ from typing import Any
 
 from yawdesign.damper.candidates import OK, UNVERIFIED, Candidate, Choice, rank
 from yawdesign.damper.scored_rows import ScoredRows, in_groups, verified
-from yawdesign.hunting.scope import conditions_told
+from yawdesign.hunting.scope import conditions_told, scope
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress, as_executor
 from yawdesign.problem.conditions import condition_set
 from yawdesign.problem.damper_catalogue import CatalogueDamper
+from yawdesign.vehicle.vehicle import Vehicle
 
 CLOSER = 10  # of the best, for which the worst condition is searched and all is computed twice
 LINEAR = (
@@ -46,12 +47,12 @@ def choose(problem: Problem, *, executor: Any = None, progress: Progress = lambd
     >>> [(each.name, each.status) for each in found.candidates]
     [('D400', 'ok'), ('D10', 'unstable'), ('D1400', "exceeds the curve's limit")]
     """
+    spread: Callable[..., Iterable[Candidate]] = map if executor is None else as_executor(executor).map
     dampers = catalogue_of(problem)
     progress("all dampers on arrays", 0.0)
     groups = in_groups(problem, dampers)
     known = {each.name: each for group in groups for each in group.candidates()}
     rows = {damper.name: damper for damper in dampers}
-    spread: Callable[..., Iterable[Candidate]] = map if executor is None else as_executor(executor).map
     while todo := _next(known.values()):
         closer = sum(each.searched for each in known.values())
         progress(f"closer: {', '.join(each.name for each in todo[:3])} ...", min(0.1 + 0.08 * closer, 0.95))
@@ -59,12 +60,13 @@ def choose(problem: Problem, *, executor: Any = None, progress: Progress = lambd
         known |= {each.name: each for each in spread(verified, alone, todo)}
     ranked = sorted(known.values(), key=rank)
     curve = problem.curve
+    linear = LINEAR if any(damper.blow_off is not None for damper in dampers) else ""
     return Choice(
         candidates=tuple(ranked),
         objective=problem.design.objective,
         limit=None if curve is None else float(curve.limit),
         searched=conditions_told(condition_set(problem), problem.parameters()),
-        notes=(LINEAR,) if any(damper.blow_off is not None for damper in dampers) else (),
+        notes=tuple(filter(None, (scope(Vehicle.of(groups[0].space.problem)), linear))),
     )
 
 

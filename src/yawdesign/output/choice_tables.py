@@ -7,7 +7,7 @@ from rich.table import Table
 from rich.text import Text
 
 from yawdesign.output.condition_texts import condition_text
-from yawdesign.output.tables import damping, margin, titled
+from yawdesign.output.tables import damping, margin, scope_lines, titled
 from yawdesign.problem import to_unit
 from yawdesign.problem.quantities import format_number
 
@@ -29,9 +29,8 @@ def choice_tables(result: "Choice") -> RenderableType:
     rest = len(result.candidates) - len(shown)
     more = [Text(f"... and {rest} dampers more, which --json lists")] if rest else []
     ranges = [Text(NOT_SEARCHED)] if not all(each.searched for each in result.candidates if each.status == "ok") else []
-    return Group(
-        first, _table(result, shown), *more, *ranges, *_reasons(shown), *_cases(shown), *map(Text, result.notes)
-    )
+    notes = [line for note in result.notes for line in scope_lines(note)]
+    return Group(first, _table(result, shown), *more, *ranges, *_reasons(shown), *_cases(shown), *notes)
 
 
 NOT_SEARCHED = (

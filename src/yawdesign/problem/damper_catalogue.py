@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -99,7 +99,7 @@ COLUMNS = ("name", "damping", "stiffness", "per_side", "blow_off", "damping_afte
 NEEDED = COLUMNS[:3]
 
 
-def as_catalogue(value: object) -> tuple[CatalogueDamper, ...]:
+def as_catalogue(value: object, *, optional: bool = False) -> tuple[CatalogueDamper, ...]:
     """Return dampers, given as such or as a problem file has them.
 
     Examples
@@ -110,8 +110,11 @@ def as_catalogue(value: object) -> tuple[CatalogueDamper, ...]:
     """
     if isinstance(value, str):
         raise ProblemError(f"{shown(value)} is the name of a file: yawdesign.read_catalogue reads it")
-    if not isinstance(value, Sequence) or not value:
-        what = "has no value" if value is None else "has no damper in it" if value == [] else f"{shown(value)} is none"
+    if optional and isinstance(value, tuple) and not value:
+        return ()
+    if not isinstance(value, (list, tuple)) or not value:
+        empty = isinstance(value, (list, tuple))
+        what = "has no value" if value is None else "has no damper in it" if empty else f"{shown(value)} is none"
         raise ProblemError(f"{what}, expected a catalogue of yaw dampers, {_EXAMPLE}")
     mistakes, found = Mistakes(), dict[str, CatalogueDamper]()
     for place, each in enumerate(value):

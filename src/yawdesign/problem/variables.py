@@ -99,7 +99,7 @@ class Design:
         with mistakes.under("design.objective"):
             as_choice(self.objective, OBJECTIVES)
         with mistakes.under("design.catalogue"):
-            object.__setattr__(self, "catalogue", as_catalogue(self.catalogue) if self.catalogue != () else ())
+            object.__setattr__(self, "catalogue", as_catalogue(self.catalogue, optional=True))
         checked: dict[str, Variable] = {}
         for given, variable in self._given():
             key = key_of(given)
