@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.special import ndtri
 from typer.testing import CliRunner
 
 import yawdesign as yd
@@ -151,6 +152,23 @@ def test_optimise(answered, spectrum):
         for x in fixed:  # those that no variable moves do not count
             s.remove(min(s, key=lambda root: abs(root - x)))
         assert found["margin"] == pytest.approx(-max(root.real for root in s), rel=1e-6)
+
+
+@pytest.mark.slow
+def test_uncertainty(answered, file, spectrum):
+    data = json.loads(file.read_text(encoding="utf-8"))
+    data["uncertainty"] = {"lambda": {"uniform": [0.05, 0.4]}, "K_1x": {"normal": "10 %"}}
+    file.write_text(json.dumps(data), encoding="utf-8")
+    found = answered("uncertainty", "--samples", "1024", codes=(0, 1))
+    assert found["margin"] == pytest.approx(-spectrum().real.max(), rel=1e-7)
+    K_1x = data["bogie"]["K_1x"]
+    low, high = (-spectrum(K_1x=K_1x * x).real.max() for x in (0.9999, 1.0001))
+    assert found["effects"]["K_1x"]["margin"] == pytest.approx((high - low) / 2e-4 * 0.1, rel=1e-3)
+    u = (np.arange(300) + 0.5)[:, None] * [1 / 300, 0.6180339887498949] % 1  # evenly over the unit square
+    samples = zip(0.05 + 0.35 * u[:, 0], K_1x * (1 + 0.1 * ndtri(u[:, 1])), strict=True)
+    unstable = np.mean([spectrum(**{"lambda": x, "K_1x": y}).real.max() > 0 for x, y in samples])
+    low, high = found["interval"]
+    assert low - 0.03 <= unstable <= high + 0.03
 
 
 def test_simulate(answered, independent, problem, spectrum):

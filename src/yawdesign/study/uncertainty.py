@@ -29,6 +29,7 @@ MOST_CONDITIONS = 50  # those inside ranges among them; with long lists there ma
 PERCENTILES_FROM = 2**15  # samples
 BASE, COMPARED = 2**8, 625  # of each replicate: points of the indices, verdicts beside eigenvalues
 SLOWER = 8  # so many times longer take the margins of a vehicle with a car body
+EARLY = 0.25  # of the margins under several conditions are computed, the others surely exceed the least so far
 USELESS = 0.2  # half the interval of an index that tells nothing
 DOUBTFUL = 1e-3  # share of samples without a verdict with which a result is no longer verified
 
@@ -213,7 +214,7 @@ def _power(n: float) -> int:
 
 def _found(workers: Workers, problem: Problem, vehicle: UncertainVehicle, samples: int, seed: int) -> Uncertainty:
     objective, conditions = problem.design.objective, len(vehicle.question.conditions)
-    slower = conditions * (SLOWER if problem.car_body else 1)
+    slower = max(1.0, conditions * EARLY) * (SLOWER if problem.car_body else 1)
     stable = bool(evaluate(vehicle.question, vehicle.uncertain.parameters).columns["stable"][0])
     designed = as_designed(vehicle, objective)
     probability = probability_unstable(workers, vehicle, samples, seed)
