@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import pytest
 from rich.console import Group
 
 from yawdesign.damper.relaxations import Relaxation
@@ -9,6 +10,11 @@ from yawdesign.output.relaxation_tables import relaxation_tables
 from yawdesign.output.tables import rendered
 
 SPEED = Relaxation("speed", "speed", 300 / 3.6, 270 / 3.6, -0.1, 10 / 3.6, {"C_s": 5e5}, 1.5, met=True)
+
+
+@pytest.fixture(autouse=True)
+def wide(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
 
 
 def shown(conflict, *relaxations):
