@@ -47,6 +47,8 @@ class TradeOff(Result):
         What kind of answer this is.
     message : str
         The same in a sentence, and what to do.
+    searched : str
+        Under which conditions the margins are the least, in words.
     """
 
     front: tuple[Point, ...]
@@ -57,6 +59,7 @@ class TradeOff(Result):
     ends_at: float | None
     status: str
     message: str
+    searched: str = ""
 
     @property
     def variables(self) -> tuple[str, ...]:

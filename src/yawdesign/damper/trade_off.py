@@ -19,6 +19,7 @@ from yawdesign.damper.least_resistance import LeastResistance, resistances
 from yawdesign.damper.pareto_front import GAIN, Point, TradeOff, described, pareto
 from yawdesign.damper.status import Status
 from yawdesign.hunting.arrays import Float
+from yawdesign.hunting.scope import conditions_told
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress, as_executor
 from yawdesign.problem.condition import Condition
@@ -234,6 +235,7 @@ class _Front:
             ends_at=self.ends_at,
             status=status,
             message=message,
+            searched=conditions_told(self.space.condition_set, self.problem.parameters()),
         )
 
     def _beside(self, C_s: float | None) -> Point | None:
