@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import pytest
 from rich.console import Group
 
 from yawdesign.damper.relaxations import Relaxation
@@ -9,6 +10,11 @@ from yawdesign.output.relaxation_tables import relaxation_tables
 from yawdesign.output.tables import rendered
 
 SPEED = Relaxation("speed", "speed", 300 / 3.6, 270 / 3.6, -0.1, 10 / 3.6, {"C_s": 5e5}, 1.5, met=True)
+
+
+@pytest.fixture(autouse=True)
+def wide(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
 
 
 def shown(conflict, *relaxations):
@@ -25,7 +31,7 @@ def test_each_number_with_its_own_unit():
     assert "requirements.damping_ratio, curve.limit; without any one of them there is a design" in text
     assert "speed │ 300 km/h │ 270 km/h │ -10 % │ 500 kN·s/m │ 1.5 1/s" in text
     assert "5 % │ 4 % │ -20 %" in text
-    assert "Not enough alone: bogie.K_2x (to 8 MN/m), curve.limit (to 0.8)." in text
+    assert "Not enough alone: bogie.K_2x (0 ... 8 MN/m), curve.limit (to 0.8)." in text
 
 
 def test_nothing_where_nothing_is_known():

@@ -104,9 +104,9 @@ def enough(p: Parameters, C_s: float, curve: Curve, names: Iterable[str]) -> dic
     Examples
     --------
     >>> import yawdesign as yd
-    >>> problem = yd.table1(limit=0.03)
+    >>> problem = yd.table1().replace(limit=0.03)
     >>> {name: round(x, 4) for name, x in enough(problem.parameters(), 0.0, problem.curve, ("limit", "R")).items()}
-    {'limit': 0.0307, 'R': 307.2}
+    {'limit': 0.0307, 'R': 307.2458}
     """
     resistance, angle = float(rotational_resistance(p, C_s, curve)), curve.L / (2 * curve.R)
     surplus = (resistance - curve.limit) * float(resistance_scale(p, curve))  # of the moment

@@ -35,17 +35,25 @@ def relaxation_tables(
     if enough:
         variables = list(enough[0].design)
         table = titled("What to change, one at a time", "", "from", "to", "change", *variables, "margin")
-        table.columns[0].no_wrap = True
+        for column in table.columns:
+            column.overflow = "fold"  # a number that is cut off would be another one
         for one in enough:
             design = (format_quantity(one.design[name], PARAMETERS[name].unit, DIGITS) for name in variables)
             change = [shown_value(one.name, x) for x in (one.now, one.value or 0.0)]
             share = f"{100 * (one.change or 0.0):+.3g} %"
             table.add_row(one.name, *change, share, *design, margin(one.margin, objective))
         found.append(table)
-    helpless = [f"{one.name} (to {shown_value(one.name, one.searched)})" for one in relaxations if not one.met]
+    helpless = [
+        f"{one.name} ({_reach(one)} {shown_value(one.name, one.searched)})" for one in relaxations if not one.met
+    ]
     if helpless:
         found.append(Text(f"Not enough alone: {', '.join(helpless)}."))
     return found
+
+
+def _reach(relaxation: "Relaxation") -> str:
+    """Return how far a number was changed, in words before the farthest value: a parameter went to zero as well."""
+    return "0 ..." if relaxation.kind == "parameter" else "to"
 
 
 def _together(conflict: Sequence[str]) -> str:
