@@ -17,6 +17,13 @@ TABLE_1 = CASES[0]["bogie"]
 VEHICLES = json.loads((Path(__file__).parent / "data" / "vehicle.json").read_text(encoding="utf-8"))["cases"]
 CAR_BODY = VEHICLES[0]["car_body"]
 MODELS = [("power", "as-printed"), ("power", "reciprocal"), ("trailer", "reciprocal")]
+NARROW = {
+    "M_b": 9039.58, "J_b": 9902.78, "M_w": 2217.15, "J_w": 2202.6, "M_m": 1617.43, "J_m": 1261.39, "W": 185130,
+    "K_1x": 49286400, "K_1y": 5213830, "K_2x": 931438, "K_2y": 675889, "K_m": 489176, "K_mphi": 333243,
+    "K_ds": 29312600, "K_dt": 33808300, "K_dm": 33011400, "C_t": 65410.1, "C_mphi": 16413.4, "C_m": 28991.4,
+    "a": 1.5399, "b": 0.91796, "a_0": 1.00365, "b_0": 0.420661, "b_1": 0.811462, "b_2": 1.27891, "b_3": 0.916541,
+    "r": 0.748269, "lambda": 0.5, "f_11": 8008740, "f_22": 10645000, "C_s": 117280.942,
+}  # fmt: skip
 
 
 def pytest_configure():
@@ -175,6 +182,12 @@ def independent():
 def car_body():
     """The car body of the reference vehicles in SI units."""
     return dict(CAR_BODY)
+
+
+@pytest.fixture
+def narrow_bogie():
+    """A bogie in SI units, unstable from 219.72 to 221.12 km/h: two changes that undo each other within 1.4 km/h."""
+    return dict(NARROW)
 
 
 @pytest.fixture

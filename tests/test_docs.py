@@ -15,7 +15,10 @@ ROOT = Path(__file__).parents[1]
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
 # What tests/test_examples_export.py, tests/test_examples_fmu.py and tests/test_readme.py run.
 RUN_ELSEWHERE = {"README", "export", "export-casadi", "export-python-control", "fmu"}
-RUN_HERE = {"conditions", "modes", "problem-file", "response", "sweeps", "trade-off"}
+RUN_HERE = {
+    *("choose", "conditions", "critical-speed", "modes", "problem-file"),
+    *("response", "sweeps", "trade-off", "uncertainty"),
+}
 COMMANDS = typer.main.get_command(app).commands
 
 every_page = pytest.mark.parametrize("page", PAGES, ids=lambda path: path.stem)

@@ -97,6 +97,19 @@ def test_stability(answered, spectrum):
     assert found["spectral_abscissa"] == pytest.approx(s.real.max(), rel=1e-8)
 
 
+def test_critical_speed(answered, spectrum):
+    found = answered("critical-speed", codes=(0, 1))
+    critical = found["critical_speeds"]
+    for x in critical:
+        assert np.min(np.abs(spectrum(v=x["v"]) - 1j * x["omega"])) < 1e-6 * x["omega"]
+    v = np.linspace(*found["searched"], 60)
+    stable = np.array([spectrum(v=x).real.max() < 0 for x in v])
+    up_to = {None: np.inf}.get(found["stable_up_to"], found["stable_up_to"])
+    assert stable[v < up_to].all()
+    assert np.count_nonzero(np.diff(stable)) <= len(critical)
+    assert (up_to == np.inf) == (not critical and bool(stable.all()))
+
+
 def test_modes(answered, spectrum):
     found = answered("modes", codes=(0, 1))["modes"]
     roots = [complex(*mode["eigenvalue"]) for mode in found]

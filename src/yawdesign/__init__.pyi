@@ -1,5 +1,6 @@
 """The public names: each stands here once, for type checkers and for the package, which reads this file."""
 
+from yawdesign.damper.candidates import Candidate as Candidate
 from yawdesign.damper.candidates import Choice as Choice
 from yawdesign.damper.choose import choose as choose
 from yawdesign.damper.forward import ForwardDesign as ForwardDesign

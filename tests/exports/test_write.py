@@ -280,7 +280,7 @@ def test_mistakes_are_exit_code_2(tmp_path, options, message):
 
 
 def test_a_place_is_looked_at_before_the_work(tmp_path, monkeypatch):
-    monkeypatch.setattr("yawdesign.exports.write.functions", None)
+    monkeypatch.setattr("yawdesign.exports.write.functions_of", None)
     (tmp_path / "mine").write_text("")
     for place, message in ((tmp_path / "no" / "such", "No such file or directory"), (tmp_path, "is not empty")):
         done = run("--to", place)

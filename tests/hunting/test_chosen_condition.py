@@ -88,7 +88,7 @@ def test_functions_say_their_condition():
         found = yd.functions(PROBLEM, inputs, only=["state_matrix"], condition="worst").to_dict()["state_matrix"]
         assert found["condition"]["values"] == "worst"
         assert found["condition"].items() >= speed.items()
-    several = PLAIN.replace(speed=[70.0, 80.0])
+    several = PLAIN.replace(speed=["250 km/h", "300 km/h"])
     assert yd.functions(several, ["v"], only=["state_matrix"]).to_dict()["state_matrix"]["condition"] == {
         "values": "as written"
     }

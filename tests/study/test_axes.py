@@ -202,12 +202,49 @@ def test_an_axis_replaces_the_condition_of_its_name():
     assert question.conditions == (Condition(()),)
 
 
-def test_the_other_conditions_stay(monkeypatch):
-    several = tuple(Condition((("v", v), ("lambda", x))) for v in (70.0, 80.0) for x in (0.1, 0.2))
-    monkeypatch.setattr("yawdesign.study.request.conditions", lambda problem: several)
-    assert conditions(of="C_sl", v=[70, 80]) == [{"lambda": 0.1}, {"lambda": 0.2}]
-    assert conditions(of="C_sl", lambda_=[0.3, 0.4]) == [{"v": 70.0}, {"v": 80.0}]
-    assert len(conditions(of="C_sl", f_m=[1, 2])) == 4
+def test_the_other_conditions_stay():
+    several = yd.table1().replace(speed=["70 m/s", "80 m/s"], conditions={"lambda": [0.1, 0.2]})
+    assert conditions(of="C_sl", problem=several, v=[70, 80]) == [{"lambda": 0.1}, {"lambda": 0.2}]
+    assert conditions(of="C_sl", problem=several, lambda_=[0.3, 0.4]) == [{"v": 70.0}, {"v": 80.0}]
+    assert len(conditions(of="C_sl", problem=several, f_m=[1, 2])) == 4
+
+
+def test_an_axis_replaces_all_that_is_said_of_what_it_sets():
+    load = {"tare": {"W": 1e5, "M_b": 5e3}}
+    several = {"K_m": [6e5, 7e5], "f_11": [1e6, 2e6], "tolerance": {"K_m": 0.1}, "load": load}
+    problem = yd.table1().replace(
+        design=yd.Design(variables={"C_s": yd.Variable(min=1e4, max=1e7)}), conditions=several
+    )
+    found = asked(of="C_sl", problem=problem, f_m=[1, 2]).task.question.conditions
+    assert {name for x in found for name in x.described} == {"speed", "f_11", "load"}
+    found = asked(of="C_sl", problem=problem, creep_factor=[0.5, 1], M_b=[5e3, 6e3]).task.question.conditions
+    assert {name for x in found for name in x.described} == {"speed", "K_m", "tolerance.K_m", "load"}
+    assert {x.load.changes for x in found} == {(("W", 1e5),)}
+
+
+def test_ranges_are_looked_at_at_some_values():
+    ranges = {"lambda": {"min": 0.1, "max": 0.3}, "tolerance": {"K_m": 0.1, "C_m": 0.1, "C_t": 0.1}}
+    one = conditions(of="C_sl", problem=yd.table1().replace(conditions={"lambda": ranges["lambda"]}), f_m=[1, 2])
+    assert [x["lambda"] for x in one] == pytest.approx(np.linspace(0.1, 0.3, 9))
+    several = conditions(of="C_sl", problem=yd.table1().replace(conditions=ranges), f_m=[1, 2])
+    assert 500 < len(several) <= 1000
+    assert {x["tolerance.C_t"] for x in several} >= {-0.1, 0.1}
+
+
+def test_what_has_values_of_one_condition_is_refused_for_several():
+    several = yd.table1().replace(conditions={"lambda": [0.1, 0.2]})
+    for of in ("critical", "critical_speed"):
+        assert "differ in lambda" in mistakes(of=of, problem=several, f_m=[1, 2])["conditions"]
+        assert asked(of=of, problem=several, lambda_=[0.1, 0.2]).size == 2
+
+
+def test_axes_of_the_curve():
+    assert "does not depend" in mistakes(of="stable", R=[200, 300])["R"]
+    assert (
+        "there is none" in mistakes(of="design", problem=yd.table1().replace(curve=None), limit=[0.05, 0.08])["limit"]
+    )
+    axis = asked(of="design", V_r=["80 km/h", "90 km/h"]).axes[0]
+    assert (axis.unit, axis.values.tolist()) == ("m/s", pytest.approx([80 / 3.6, 25.0]))
 
 
 def test_the_range_of_critical_speeds():

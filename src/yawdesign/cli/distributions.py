@@ -6,7 +6,9 @@ import typer
 
 from yawdesign.cli.answering import (
     AsJson,
+    Dask,
     Force,
+    Jobs,
     ProblemFile,
     ended,
     mistakes_told,
@@ -20,8 +22,8 @@ def uncertainty(
     file: ProblemFile,
     samples: Annotated[int | None, typer.Option(help="How many; 1 048 576, fewer with many conditions.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the samples.")] = 0,
-    jobs: Annotated[int, typer.Option(min=1, help="Number of processes; 1: the threads of this one.")] = 1,
-    dask: Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")] = None,
+    jobs: Jobs = 1,
+    dask: Dask = None,
     plot: Annotated[str | None, typer.Option(help="Draw a picture: .png, .pdf or .svg.")] = None,
     of: Annotated[str, typer.Option(help="What --plot draws: tornado (default), margin or C_sl.")] = "tornado",
     force: Force = False,

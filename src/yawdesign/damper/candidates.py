@@ -21,8 +21,8 @@ OK, UNVERIFIED, MISSES, UNSTABLE, EXCEEDS, OUTSIDE = (
 ORDER = (OK, UNVERIFIED, MISSES, UNSTABLE, EXCEEDS, OUTSIDE)
 
 
-@dataclass(frozen=True, repr=False)
-class Candidate(Result):
+@dataclass(frozen=True)
+class Candidate:
     """A damper of a catalogue and what it is worth.
 
     Parameters
@@ -84,6 +84,8 @@ class Choice(Result):
         Which margin.
     limit : float or None
         Of the rotational resistance [-]; None without a curve.
+    searched : str
+        Under which conditions this holds, in words.
     notes : tuple of str
         What this answer does not hold.
     """
@@ -91,6 +93,7 @@ class Choice(Result):
     candidates: tuple[Candidate, ...]
     objective: str
     limit: float | None
+    searched: str
     notes: tuple[str, ...]
 
     @property

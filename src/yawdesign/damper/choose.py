@@ -5,8 +5,10 @@ from typing import Any
 
 from yawdesign.damper.candidates import OK, UNVERIFIED, Candidate, Choice, rank
 from yawdesign.damper.scored_rows import ScoredRows, in_groups, verified
+from yawdesign.hunting.scope import conditions_told
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress, as_executor
+from yawdesign.problem.conditions import condition_set
 from yawdesign.problem.damper_catalogue import CatalogueDamper
 
 CLOSER = 10  # of the best, for which the worst condition is searched and all is computed twice
@@ -61,6 +63,7 @@ def choose(problem: Problem, *, executor: Any = None, progress: Progress = lambd
         candidates=tuple(ranked),
         objective=problem.design.objective,
         limit=None if curve is None else float(curve.limit),
+        searched=conditions_told(condition_set(problem), problem.parameters()),
         notes=(LINEAR,) if any(damper.blow_off is not None for damper in dampers) else (),
     )
 

@@ -173,7 +173,7 @@ class Space:
         """Return the ends of a coordinate: the bounds, and for C_s what the curve allows with the other values."""
         low, high = self._bounds_with(name, known)
         if name == "C_s" and self.curve is not None:
-            for load, p in zip(self.loads, self._in_curve(known), strict=True):
+            for load, p in zip(self.loads, self.in_curve(known), strict=True):
                 high = np.minimum(high, curving_limit(p, self.curve) / load.damping_factor)
             return low, np.maximum(low, high)
         return low, high
@@ -182,7 +182,7 @@ class Space:
         """Return the bounds of a variable where other values are known."""
         return self.bounds(name)
 
-    def _in_curve(self, values: Values) -> list[Values]:
+    def in_curve(self, values: Values) -> list[Values]:
         """Return the parameters with which the curve is passed, under each of the conditions that differ for it."""
         return [load.applied(values) for load in self.loads]
 
@@ -205,7 +205,7 @@ class Space:
         kept, curve = np.asarray(True), self.curve
         if curve is None:
             return kept
-        for p in self._in_curve(values):
+        for p in self.in_curve(values):
             allowed = curve.limit * resistance_scale(p, curve)
             kept = kept & (allowed * (1 + 1e-12) >= resisting_moment(p, p["C_s"], curve))
         return kept

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from yawdesign.damper.curving import curving_conditions, largest_resistance, least_curving_limit
+from yawdesign.damper.curving import ENOUGH, curving_conditions, excess, largest_resistance, least_curving_limit
 from yawdesign.damper.single_bogie import CONICITIES, SingleBogie, of_bogie, partings
 from yawdesign.damper.stable_intervals import ConditionLookedAt, StableUnderAll, stable_under_all
 from yawdesign.damper.status import Status
@@ -184,7 +184,7 @@ def _forward_design(
         C_su=upper,
         C_s=C_s,
         status=status,
-        message=status.message,
+        message=status.told(_excess(status, C_sl, designed.p, conditions, curve)),
         stable=C_s is not None,
         rotational_resistance=resisted or None,
         sensitivity=slopes,
@@ -194,6 +194,18 @@ def _forward_design(
         searched=conditions_told(conditions, designed.p),
         scope=scope([designed.under(condition) for condition in conditions.corners]),
     )
+
+
+def _excess(
+    status: Status, C_sl: float | None, p: Mapping[str, Any], conditions: ConditionSet, curve: Curve | None
+) -> str:
+    """Return in words what the curve's limit is short of, where that is why there is no design."""
+    if curve is None or status not in (Status.INFEASIBLE, Status.INFEASIBLE_IN_CURVE):
+        return ""
+    # Another suspension has another C_sl; the limit and the radius have no part in it.
+    C_s, given = (0.0, ENOUGH) if status == Status.INFEASIBLE_IN_CURVE else (C_sl, ("limit", "R"))
+    each = [condition.applied({**p, "C_s": C_s}) for condition in curving_conditions(conditions)]
+    return excess(each, ("C_s",), curve, given)
 
 
 def _told(x: CriticalValue, one: ConditionLookedAt) -> Critical:

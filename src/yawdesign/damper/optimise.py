@@ -188,7 +188,7 @@ def _nothing(space: Space, curve: Curve) -> Optimum:
         margin=None,
         worst_condition={},
         active=("rotational_resistance",),
-        message=Status.NO_FEASIBLE_DESIGN.told(excess(values, space.names, curve)),
+        message=Status.NO_FEASIBLE_DESIGN.told(excess(space.in_curve(values), space.names, curve)),
         stable=False,
         rotational_resistance=None,
         bounds={},

@@ -12,17 +12,18 @@ import numpy as np
 from yawdesign.damper.changed_problem import Way, ways, with_value
 from yawdesign.damper.design_space import MISSED, Space
 from yawdesign.damper.relaxed_space import STABILITY, RelaxedSpace
-from yawdesign.damper.stencils import Landscape, distinct, refine
+from yawdesign.damper.stencils import distinct, refine
 from yawdesign.hunting.arrays import Float
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress
 
 SLACK = 1e-3  # of the least change: so much more is told, with which a search finds more than one design
+NOTHING = 1e-7  # a change by less, relative, is none
 FIRST = 192  # points that give a first level
 MOST_POINTS, BLOCK = 131_072, 16_384  # in three variables and more; each one less takes a quarter of it
 PASSED = 48  # points of a block that are better than all before and get a value
 STARTS, APART = 6, 0.05  # points that are refined, and how far they are apart
-REFINED = {"points": 64, "tries": 3, "rounds": 40}
+CANDIDATES = 100  # of which these are chosen
 MOST_ADDED = 8  # times that conditions are added
 
 
@@ -83,12 +84,19 @@ def relaxations(
         Of the search points.
     progress : callable, optional
         Called with a text and the share that is done, 0 ... 1.
+
+    Returns
+    -------
+    tuple of Relaxation
+        Of a number that may go up or down the smaller change; none if there is a design without any.
     """
     every, found = ways(problem), list[Relaxation]()
     anchors = () if design is None else (dict(design),)
     for k, way in enumerate(every):
         progress(f"relaxing {way.name}", k / len(every))
         found.append(_relaxation(RelaxedSpace(problem, anchors_given=anchors, way=way), seed))
+        if found[-1].change is not None and abs(found[-1].change) < NOTHING:
+            return ()
     return tuple(sorted(_one_of_each(found), key=_size))
 
 
@@ -121,7 +129,7 @@ def _one_of_each(found: Sequence[Relaxation]) -> list[Relaxation]:
 def _relaxation(space: RelaxedSpace, seed: int) -> Relaxation:
     """Return the least relaxation of one number; conditions are added until no worse one is found."""
     way = space.way
-    for _ in range(MOST_ADDED):
+    for _ in range(MOST_ADDED if space.passes_curve else 0):
         x = best_point(space, space.anchors, seed)
         share = -float(space.margins_at(x)[0])
         if not np.isfinite(share):
@@ -164,8 +172,10 @@ def conflict(problem: Problem, *, seed: int = 0) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        Keys of a problem file, and ``"stability"``. There may be other such sets.
+        Keys of a problem file, and ``"stability"``. There may be other such sets; none if there is a design.
     """
+    if _is_possible(problem, 0.0, seed):
+        return ()
     bounds = [f"design.variables.{name}" for name in problem.design.variables]
     curve = [] if problem.curve is None else ["curve.limit"]
     left = [*(f"requirements.{each.name}" for each in problem.requirements), STABILITY, *bounds, *curve]
@@ -207,16 +217,13 @@ def best_point(space: Space, anchors: Float, seed: int) -> Float:
         passed = block[:, space.beats_at(block, np.full(BLOCK, best))][:, :PASSED]
         if passed.shape[1]:
             x, merit = np.concatenate([x, passed], axis=1), np.concatenate([merit, space.margins_at(passed)])
-    order = distinct(x, merit, np.full(len(merit), APART))[:STARTS]
+    order = np.argsort(-merit, kind="stable")[:CANDIDATES]
     order = order[np.isfinite(merit[order])]
     if not order.size:
         return x[:, :1]
-    return refine(_as_landscape(space), x[:, order], merit[order], rng, **REFINED)[:, :1]
-
-
-def _as_landscape(space: Space) -> Landscape:
-    return space
+    order = order[distinct(x[:, order], merit[order], np.full(len(order), APART))[:STARTS]]
+    return refine(space, x[:, order], merit[order], rng, points=64, tries=3, until=1e-4, rounds=30)[:, :1]
 
 
 def _blocks(d: int) -> int:
-    return max(1, MOST_POINTS // 4 ** max(0, 3 - d) // BLOCK)
+    return max(1, (MOST_POINTS >> 2 * max(0, 3 - d)) // BLOCK)

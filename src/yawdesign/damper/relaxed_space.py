@@ -103,13 +103,20 @@ class RelaxedSpace(Space):
             return low, value
         return (value, high) if self.way.name == f"design.variables.{name}.min" else (low, high)
 
-    def _in_curve(self, values: Values) -> list[Values]:
+    def in_curve(self, values: Values) -> list[Values]:
         """Return the same; a larger limit is as good as an axle load that is larger by as much, eq. (13)."""
-        found = super()._in_curve(values)
+        found = super().in_curve(values)
         if self.way.kind != "limit":
             return found
         more = values.get(self.way.name, self.way.now) / self.way.now
         return [{**p, "W": p["W"] * more} for p in found]
+
+    @property
+    def passes_curve(self) -> bool:
+        """Whether any design keeps the curve's limit at any share of the way."""
+        shares = np.linspace(0, 1, SHARES)
+        values = self.values_at(np.repeat(self.gentlest[:, None], SHARES, axis=1), shares)
+        return bool(np.any(self.feasible(values)))
 
     def met(self, x: Float, share: Float) -> Bools:
         """Return where a design meets everything that is demanded at a share of the way, shape (n,).

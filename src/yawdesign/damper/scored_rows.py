@@ -178,7 +178,8 @@ class ScoredRows:
         resistance = np.zeros(self.sets.size)
         for load in self.space.loads:
             p = load.applied(self.values)
-            resistance = np.maximum(resistance, rotational_resistance(p, p["C_s"], curve))
+            with np.errstate(divide="ignore"):  # without an axle load no bogie turns
+                resistance = np.maximum(resistance, rotational_resistance(p, p["C_s"], curve))
         return resistance
 
     def _requirements(self) -> list[list[RequirementVerdict]]:

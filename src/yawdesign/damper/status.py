@@ -19,7 +19,7 @@ class Status(StrEnum):
     Examples
     --------
     >>> Status.STABLE_FOR_NONE == "stable for none", Status.STABLE_FOR_NONE.remedy
-    (True, 'lower the speed or the conicity, or change the suspension (optimise K_m and C_m)')
+    (True, 'optimise K_m and C_m, which also tells the least change of each number that is enough')
     """
 
     meaning: str
@@ -50,17 +50,17 @@ class Status(StrEnum):
     INFEASIBLE = (
         "infeasible",
         "every stable damping is above what the curve allows",
-        "allow a larger curve radius or transition, lower the speeds, or change the suspension (optimise K_m and C_m)",
+        "optimise K_m and C_m, which also tells the least change of each number that is enough",
     )
     INFEASIBLE_IN_CURVE = (
         "infeasible in the curve",
         "the curve's limit is exceeded even without a yaw damper",
-        "lower K_2x or b_2, or allow a larger radius or limit",
+        "optimise tells the least change of each number that is enough for stability too",
     )
     STABLE_FOR_NONE = (
         "stable for none",
         "no yaw damping makes the bogie stable",
-        "lower the speed or the conicity, or change the suspension (optimise K_m and C_m)",
+        "optimise K_m and C_m, which also tells the least change of each number that is enough",
     )
     UNDAMPED = (
         "motor yaw undamped",
@@ -82,12 +82,12 @@ class Status(StrEnum):
     UNSTABLE = (
         "unstable",
         "no design within the bounds is stable",
-        "lower the speed, widen the bounds or vary other parameters",
+        "see what is enough to change",
     )
     NO_FEASIBLE_DESIGN = (
         "infeasible",
         "no design within the bounds keeps the curve's limit",
-        "lower C_s or its bounds, allow a larger radius or limit, or let other parameters vary",
+        "see what is enough to change",
     )
     REQUIREMENTS_MISSED = (
         "infeasible",

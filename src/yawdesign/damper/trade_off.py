@@ -123,7 +123,7 @@ class _Front:
         values = _numbers(space, space.gentlest)
         if curve is not None and not space.feasible(values):
             status = Status.NO_FEASIBLE_DESIGN
-            return self._result((), status, status.told(excess(values, space.names, curve)))
+            return self._result((), status, status.told(excess(space.in_curve(values), space.names, curve)))
         gentle = LeastResistance(space.problem, level=LEAST[space.objective])
         begin = gentle.gentlest_design(self.seed, self.progress)
         if begin is None:

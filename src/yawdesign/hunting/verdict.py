@@ -84,8 +84,8 @@ class RequirementVerdict:
     wanted : float
         The least value that is required [1/s], [-] or [m/s].
     reached : float or None
-        The worst value under all conditions, and of all faults where these must reach it, in the same unit; None for a
-        critical speed beyond the searched range, which then counts as met.
+        The worst value under all conditions, and of all faults where these must reach it [1/s], [-] or [m/s]; None for
+        a critical speed beyond the searched range, which then counts as met.
     met : bool
         Whether that is enough.
     worst_condition : mapping

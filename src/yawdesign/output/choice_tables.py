@@ -24,6 +24,7 @@ def choice_tables(result: "Choice") -> RenderableType:
     if best:
         first.append_text(Text(margin(best.margin, result.objective), "bold green"))
         first.append(f", C_s = {damping(best.C_s)}, worst at {condition_text(best.worst_condition)}.")
+    first.append(f" This holds for {result.searched}.")
     shown = result.candidates[:SHOWN]
     rest = len(result.candidates) - len(shown)
     more = [Text(f"... and {rest} dampers more, which --json lists")] if rest else []

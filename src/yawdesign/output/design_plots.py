@@ -1,18 +1,21 @@
 """Pictures of a forward design and of an optimum."""
 
+import textwrap
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from yawdesign.output.pictures import new_axes
+from yawdesign.output.condition_texts import condition_text
+from yawdesign.output.pictures import literal, new_axes
 from yawdesign.output.sweep_style import COLOURS, STABLE, UNSTABLE, legend_below
-from yawdesign.output.tables import margin
+from yawdesign.output.tables import critical_shown, margin
 from yawdesign.problem import PARAMETERS, ProblemError, format_quantity, to_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from yawdesign.damper.forward import ForwardDesign
+    from yawdesign.damper.forward import Critical, ForwardDesign
     from yawdesign.damper.optimum import Optimum
 
 DAMPING = to_unit(1.0, "kN·s/m")
@@ -30,10 +33,10 @@ def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
     """
     ax = new_axes(ax)
     low, high = _ends(result)
-    many = len({x.speed for x in result.critical}) > 1
-    ax.axvspan(low, high, color=UNSTABLE, linewidth=0, label="unstable at some speed" if many else "unstable")
+    many = len({condition_text(x.condition) for x in result.critical}) > 1
+    ax.axvspan(low, high, color=UNSTABLE, linewidth=0, label="unstable under some condition" if many else "unstable")
     for k, (start, stop) in enumerate(result.stable_intervals):
-        text = "_" if k else "stable at every speed" if many else "stable"
+        text = "_" if k else "stable under every condition" if many else "stable"
         ax.axvspan(max(start * DAMPING, low), min(stop * DAMPING, high), color=STABLE, linewidth=0, label=text)
     _critical(result, ax)
     if result.C_su is not None and result.C_su > 0:
@@ -43,7 +46,8 @@ def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
         text = rf"$C_\mathrm{{s}}$ = {_damping(result.C_s)}, golden section"
         ax.axvline(result.C_s * DAMPING, color="#1f4e9e", linewidth=2.5, label=text)
     ax.set(xscale="log", xlim=(low, high), xlabel=r"damping of the pair of yaw dampers $C_\mathrm{s}$ [kN·s/m]")
-    ax.set_title(f"Forward design: {result.status}", loc="left", fontsize="medium")
+    title = textwrap.fill(literal(f"Forward design: {result.status}, under {result.searched}"), 90)
+    ax.set_title(title, loc="left", fontsize="medium")
     legend_below(ax)
     return ax
 
@@ -59,20 +63,31 @@ def _ends(result: "ForwardDesign") -> tuple[float, float]:
 
 
 def _critical(result: "ForwardDesign", ax: "Axes") -> None:
-    """Draw the critical values over their speed, or as lines with their frequency where there is one speed."""
-    speeds = {x.speed for x in result.critical}
-    if len(speeds) > 1:
-        for kind in {x.becomes for x in result.critical}:
-            points = [(x.C_s * DAMPING, to_unit(x.speed, "km/h")) for x in result.critical if x.becomes == kind]
-            label = f"critical value, above it {'still unstable' if kind == 'neither' else kind}"
-            ax.plot(*zip(*points, strict=True), "o", color=COLOURS[kind], label=label)
+    """Draw the critical values beside their conditions, or as lines with their frequency where there is one."""
+    several = len({condition_text(x.condition) for x in result.critical}) > 1
+    if several and len({condition_text({**x.condition, "speed": 0.0}) for x in result.critical}) == 1:
+        _draw_points(ax, result.critical, [to_unit(x.speed, "km/h") for x in result.critical])
         ax.set_ylabel("running speed $v$ [km/h]")
+        return
+    if several:
+        shown = critical_shown(result)
+        rows = list(dict.fromkeys(condition_text(x.condition) for x in shown))
+        _draw_points(ax, shown, [rows.index(condition_text(x.condition)) for x in shown])
+        ax.set_yticks(range(len(rows)), [literal(row) for row in rows], fontsize="x-small")
+        ax.set_ylim(-0.7, len(rows) - 0.3)
         return
     ax.set_yticks([])
     for x in result.critical:
         ax.axvline(x.C_s * DAMPING, color=COLOURS[x.becomes], linewidth=1.5)
         text = f" {_damping(x.C_s)}\n at {x.omega / (2 * np.pi):.3g} Hz"
         ax.annotate(text, (x.C_s * DAMPING, 0.02), xycoords=ax.get_xaxis_transform(), fontsize="small")
+
+
+def _draw_points(ax: "Axes", critical: "Sequence[Critical]", rows: Sequence[float]) -> None:
+    for kind in dict.fromkeys(x.becomes for x in critical):
+        points = [(x.C_s * DAMPING, row) for x, row in zip(critical, rows, strict=True) if x.becomes == kind]
+        label = f"critical value, above it {'still unstable' if kind == 'neither' else kind}"
+        ax.plot(*zip(*points, strict=True), "o", color=COLOURS[kind], label=label)
 
 
 def draw_optimum(result: "Optimum", ax: "Axes | None" = None) -> "Axes":

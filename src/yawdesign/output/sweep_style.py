@@ -48,11 +48,7 @@ def title(sweep: Sweep) -> str:
     parts = [literal(problem.title), *(f"equations {problem.equations}" for _ in range(problem.bogie.kind == "power"))]
     if problem.car_body is not None:
         parts.append("car body moving")
-    if "v" not in names and sweep.quantity != "critical_speed":
-        parts.append(
-            " to ".join(f"{to_unit(v, 'km/h'):.4g}" for v in sorted({*problem.speeds[:1], *problem.speeds[-1:]}))
-        )
-        parts[-1] += " km/h"
+    parts.append(literal(sweep.conditions))
     for name, value in sweep.provenance.get("at", {}).items():
         parts.append(
             f"${ROWS[name].symbol}$ = {to_unit(value, ROWS[name].unit):.4g} {ROWS[name].unit.strip('-')}".strip()

@@ -32,6 +32,8 @@ def _facts(sweep: Sweep) -> Iterator[tuple[str, str]]:
     for axis in sweep.axes:
         low, high = (_text(axis.name, axis.values[k]) for k in (0, -1))
         yield f"over {axis.name}", f"{low} ... {high}, {axis.values.size} values" if axis.values.size > 1 else low
+    if sweep.conditions:
+        yield "under every combination of", sweep.conditions
     points = sweep.finished.size
     yield "points", f"{points}"
     yield GOOD.get(sweep.quantity, "stable"), _share(sweep.good.sum(), points)

@@ -2,7 +2,7 @@
 
 import io
 from collections.abc import Iterable
-from math import pi
+from math import inf, log, pi
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console, Group, RenderableType
@@ -15,13 +15,13 @@ from yawdesign.problem import PARAMETERS, format_quantity
 from yawdesign.problem.requirements import CASES
 
 if TYPE_CHECKING:
-    from yawdesign.damper.forward import ForwardDesign
+    from yawdesign.damper.forward import Critical, ForwardDesign
     from yawdesign.damper.single_bogie import Parting, SingleBogie
     from yawdesign.exports.write import Export
     from yawdesign.hunting.verdict import CaseVerdict, Mode, RequirementVerdict, Stability
 
 DAMPING = "kN·s/m"
-SHOWN = 10  # sensitivities
+SHOWN, SHOWN_CRITICAL = 10, 12  # sensitivities
 
 
 def titled(title: str, *columns: str) -> Table:
@@ -133,10 +133,11 @@ def case_tables(cases: "Iterable[CaseVerdict]") -> list[Table]:
 
 def design_tables(result: "ForwardDesign") -> RenderableType:
     """Return the tables of a `ForwardDesign`."""
+    first = Text(f"Forward design: {result.status}, under {result.searched}.", "bold")
     beside = [] if result.single_bogie is None else [_beside(result, result.single_bogie)]
-    return Group(
-        *scope_lines(result.scope), _design_facts(result), *beside, *_critical(result), *_sensitivities(result)
-    )
+    met = [*requirement_tables(result.requirements), *case_tables(result.cases)]
+    own = [_design_facts(result), *met, *beside, *_critical(result), *_sensitivities(result)]
+    return Group(first, *scope_lines(result.scope), *own)
 
 
 def _beside(result: "ForwardDesign", alone: "SingleBogie") -> RenderableType:
@@ -165,11 +166,14 @@ def _interval(low: float, high: float) -> str:
 
 
 def _design_facts(result: "ForwardDesign") -> Table:
-    stable = [("stable at every speed for C_s in", _interval(*i)) for i in result.stable_intervals]
+    many = len({tuple(x.condition.items()) for x in result.critical}) > 1
+    where = "stable under every condition for C_s in" if many else "stable for C_s in"
+    stable = [(where, _interval(*i)) for i in result.stable_intervals]
     load = {"axle": " (Q = W, the axle load)", "wheel": " (Q = W/2, the wheel load)", None: ""}[result.load]
     rows = [
-        *(stable or [("stable at every speed for C_s in", "none")]),
+        *(stable or [(where, "none")]),
         ("C_sl, lower end of the stable interval", damping(result.C_sl)),
+        *([("the condition that sets it", condition_text(result.worst_condition))] if result.worst_condition else []),
         (f"C_su, limit of the curve{load}", damping(result.C_su)),
         ("C_s, golden section", damping(result.C_s)),
         ("is that C_s stable", "yes" if result.stable else "no"),
@@ -183,11 +187,23 @@ def _design_facts(result: "ForwardDesign") -> Table:
 def _critical(result: "ForwardDesign") -> list[Table]:
     if not result.critical:
         return []
-    table = titled("Critical values", "C_s", "frequency [Hz]", "above it", "speed")
-    for x in result.critical:
+    shown = critical_shown(result)
+    some = "" if len(shown) == len(result.critical) else f": {len(shown)} of {len(result.critical)}"
+    table = titled(f"Critical values{some}", "C_s", "frequency [Hz]", "above it")
+    table.add_column("with", justify="left")
+    for x in shown:
         becomes = {"neither": "still unstable"}.get(x.becomes, x.becomes)
-        table.add_row(damping(x.C_s), f"{x.omega / (2 * pi):.4f}", becomes, speed(x.speed))
+        table.add_row(damping(x.C_s), f"{x.omega / (2 * pi):.4f}", becomes, condition_text(x.condition))
     return [table]
+
+
+def critical_shown(result: "ForwardDesign") -> list["Critical"]:
+    """Return the critical values that are shown: of many those nearest to the ends of the stable intervals."""
+    ends = [log(end) for interval in result.stable_intervals for end in interval if 0 < end < inf]
+    order = list(range(len(result.critical)))
+    if ends:
+        order.sort(key=lambda k: min(abs(log(result.critical[k].C_s) - end) for end in ends))
+    return [result.critical[k] for k in sorted(order[:SHOWN_CRITICAL])]
 
 
 def _sensitivities(result: "ForwardDesign") -> list[Table]:

@@ -35,8 +35,7 @@ def _facts(result: "Uncertainty") -> Iterator[tuple[str, str]]:
     yield "95 % interval of the probability", f"{low:.6g} ... {high:.6g}"
     yield "found by", result.method
     yield "unstable samples", f"{result.failures} of {result.samples}"
-    some = f"; of the range of {', '.join(result.ranges)} only some values" if result.ranges else ""
-    yield "unstable under any of", f"{result.conditions} condition{'s' * (result.conditions != 1)}{some}"
+    yield "judged under", result.held_under
     yield "as designed", "stable" if result.stable else "UNSTABLE"
     yield f"{result.objective.replace('_', ' ')} as designed", margin(result.margin, result.objective)
     wrong = f"{result.differences} of {result.compared} verdicts differ from eigenvalues" if result.differences else ""

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from .damper_catalogue import COLUMNS, NEEDED, QUANTITIES, CatalogueDamper
-from .diagnostics import Diagnostic, ProblemError, suggestion
+from .diagnostics import Diagnostic, ProblemError, nearest, suggestion
 from .document import Document
 from .quantities import split_quantity
 from .table import shown
@@ -148,18 +148,21 @@ class _Sheet:
     def _heads(self) -> Mapping[str, str | None]:
         """Return the units of the columns by their names, in the order of the file."""
         found: dict[str, str | None] = {}
+        meant: set[str | None] = set()
         cells = self._cells(*self.lines[0])
         for cell in cells:
             head = _HEAD.fullmatch(cell.text)
             name, unit = (head["name"], head["unit"]) if head else (cell.text, None)
             if name not in COLUMNS:
-                near = suggestion(name.partition("(")[0].strip(), COLUMNS)
+                bare = name.partition("(")[0].strip()
+                meant.add(nearest(bare, COLUMNS))
+                near = suggestion(bare, COLUMNS)
                 self._note(cell, "", f"{shown(cell.text)} is no column{near}; columns are {', '.join(COLUMNS)}")
             elif name in found:
                 self._note(cell, name, "stands twice")
             found[name] = unit
             self._check_unit(cell, name, unit)
-        missing = [name for name in NEEDED if name not in found]
+        missing = [name for name in NEEDED if name not in found and name not in meant]
         if cells and missing:
             self._note(cells[0], "", f"the column {' and the column '.join(missing)} is missing")
         return found

@@ -117,9 +117,10 @@ def as_catalogue(value: object) -> tuple[CatalogueDamper, ...]:
     for place, each in enumerate(value):
         with mistakes.under(f"{place}"):
             damper = each if isinstance(each, CatalogueDamper) else _damper(each)
-            if damper.name in found:
-                raise ProblemError(f"name: {shown(damper.name)} stands twice")
-            found[damper.name] = damper
+            with mistakes.under(f"{place}.name"):
+                if damper.name in found:
+                    raise ProblemError(f"{shown(damper.name)} stands twice")
+            found.setdefault(damper.name, damper)
     mistakes.report()
     return tuple(found.values())
 

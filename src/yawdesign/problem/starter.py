@@ -95,7 +95,7 @@ design:
 # How parameters are distributed, creep_factor and speed too, for `yawdesign uncertainty`:
 # uncertainty:
 #   lambda: {{uniform: [0.05, 0.40]}}
-#   K_m: {{lognormal: 10 %}}      # standard deviation as a share of the value; or normal: 10 %
+#   K_2x: {{lognormal: 10 %}}     # standard deviation as a share of the value; or normal: 10 %
 """
 
 

@@ -16,6 +16,7 @@ from yawdesign.damper.status import Status
 from yawdesign.hunting.arrays import Array, Bools, Float, Index
 from yawdesign.hunting.many import margins
 from yawdesign.hunting.many.critical_speeds import critical_speeds
+from yawdesign.hunting.many.critical_table import CriticalField
 from yawdesign.hunting.many.critical_values import critical_field
 from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.hunting.verdict import stability_at
@@ -166,7 +167,7 @@ def _critical_speeds(question: Question, sets: ParameterSets) -> Answers:
 def _design(question: Question, sets: ParameterSets) -> Answers:
     curves, sets = _curves(question.curve, sets)
     cases, factors = _cases(question, sets), [condition.damping_factor for condition in question.conditions]
-    fields = [critical_field(case) for case in cases]
+    fields = [_critical_field(case) for case in cases]
     recomputed = np.any([x.recomputed for x in fields], axis=0)
     unverified = np.any([x.unverified for x in fields], axis=0)
     others_stable, sure = _everywhere(margins.others_stable(case) for case in cases)
@@ -187,6 +188,14 @@ def _design(question: Question, sets: ParameterSets) -> Answers:
         with np.errstate(all="ignore"):
             columns["rotational_resistance"] = _largest_resistance(cases, factors, C_s, curves)
     return _confirmed(question, sets, Answers(columns, recomputed, unverified))
+
+
+def _critical_field(sets: ParameterSets) -> CriticalField:
+    """Return the critical values; of one vehicle in many curves they are found once."""
+    if any(np.ndim(x) for x in sets.values.values()):
+        return critical_field(sets)
+    found = critical_field(replace(sets, size=1))
+    return CriticalField(**{name: np.repeat(x, sets.size, axis=0) for name, x in vars(found).items()})
 
 
 def _everywhere(verdicts: Iterable[tuple[Bools, Bools]]) -> tuple[Bools, Bools]:

@@ -95,7 +95,7 @@ def _of_C_sl(vehicle: UncertainVehicle, each: Sequence[tuple[Vehicle, Condition]
     for here, condition in each if C_sl > 0 else ():
         found = evaluate(replace(question, of="critical", conditions=(condition,)), p, threads=1).columns
         for value, omega in zip(found["critical"][0], found["omega"][0], strict=True):
-            if abs(value - C_sl) < SAME * C_sl:
+            if abs(value / condition.damping_factor - C_sl) < SAME * C_sl:
                 return sensitivity(here, float(value), float(omega))
     return {}
 

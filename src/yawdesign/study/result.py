@@ -13,6 +13,7 @@ import numpy as np
 from yawdesign import __version__
 from yawdesign.hunting.arrays import Array, Bools
 from yawdesign.problem import ProblemError
+from yawdesign.problem.condition_texts import SHOWN, change_text, range_text
 from yawdesign.problem.diagnostics import unknown_key
 from yawdesign.problem.result import plain
 from yawdesign.problem.table import field_name
@@ -45,6 +46,14 @@ class Sweep(LabelledData):
         return _tuples(self.main) if several else self.main
 
     @property
+    def conditions(self) -> str:
+        """Under which conditions an answer holds, beside what the axes vary; of a range those that were looked at."""
+        told = [each.described for each in self.request.task.question.conditions]
+        names = dict.fromkeys(name for each in told for name in each)
+        values = {name: dict.fromkeys(each[name] for each in told if name in each) for name in names}
+        return ", ".join(_values_told(name, *values[name]) for name in names)
+
+    @property
     def good(self) -> Bools:
         """Points that are stable; where no C_s is given, points that some C_s makes stable (`design`: has a design)."""
         if "unstable_roots" in self.columns:
@@ -63,6 +72,7 @@ class Sweep(LabelledData):
             **{"values": self._nested(self.main), "columns": {**columns, "checked": self.known.tolist()}},
             "units": {name: UNITS[name] for name in self.columns},
             "boundary": self.boundary.to_dict() if self.boundary else None,
+            "conditions": self.conditions,
             "provenance": plain(self.provenance),
         }
 
@@ -129,6 +139,12 @@ class Sweep(LabelledData):
         rows = {"points": self.finished.size, **counts} | ({"unfinished": unfinished} if unfinished else {})
         lines = [f"  {name:<10}  {value}" for name, value in rows.items()]
         return "\n".join([f"Sweep of {self.of} [{self.unit}] over {grid}", *lines])
+
+
+def _values_told(name: str, *values: Any) -> str:
+    if len(values) <= SHOWN or name == "load":
+        return change_text(name, *values)
+    return f"{range_text(name, (min(values), max(values)))} ({len(values)} values)"
 
 
 def _row(values: Array) -> list[Any]:

@@ -153,7 +153,7 @@ class Indices:
 
 
 def sobol_indices(function: Callable[[Float], Float], dimension: int, size: int, seed: tuple[int, ...]) -> Indices:
-    """Return the Sobol indices of a function on the unit cube from one replicate, by Jansen's differences.
+    """Return the Sobol indices of a function on the unit cube from one replicate, by Saltelli's and Jansen's sums.
 
     Parameters
     ----------
@@ -169,8 +169,9 @@ def sobol_indices(function: Callable[[Float], Float], dimension: int, size: int,
         points.append(a.copy())
         points[-1][:, k] = b[:, k]
     of_a, of_b, *mixed = np.split(function(np.concatenate(points)), dimension + 2)
-    variance = np.concatenate([of_a, of_b]).var()
+    both_sides = np.concatenate([of_a, of_b])
+    variance, mean = both_sides.var(), both_sides.mean()
     with np.errstate(all="ignore"):
-        first = 1 - np.array([np.mean((of_b - x) ** 2) for x in mixed]) / (2 * variance)
+        first = np.array([np.mean((of_b - mean) * (x - of_a)) for x in mixed]) / variance
         total = np.array([np.mean((of_a - x) ** 2) for x in mixed]) / (2 * variance)
     return Indices(first, total)

@@ -1,32 +1,31 @@
 """The probability of instability of a problem whose parameters are uncertain, and which of them matter."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from itertools import product
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from yawdesign.hunting.arrays import Array
+from yawdesign.hunting.scope import conditions_told
 from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress
-from yawdesign.problem.condition import TOLERANCE, Condition
-from yawdesign.problem.conditions import ConditionSet, condition_set
+from yawdesign.problem.conditions import ConditionSet
 from yawdesign.problem.result import Result
 from yawdesign.problem.table import as_count, as_seed
 from yawdesign.study.answers import evaluate
 from yawdesign.study.local_effects import Effect, as_designed
 from yawdesign.study.probability import draws, percentiles, probability_unstable
 from yawdesign.study.replicates import UncertainVehicle, Workers, workers_of
-from yawdesign.study.request import Question
+from yawdesign.study.request import Question, remaining
 from yawdesign.study.samples import REPLICATES, Draw, Estimate, Indices, Uncertain
 
 SAMPLES = 2**20
 MOST_VERDICTS = 2**22  # samples times conditions, where no number of samples is asked for
 FEWEST, MOST = 2**10, 2**28  # samples that may be asked for
 LEVELS = (1, 5, 50, 95, 99)  # percentiles
-PER_RANGE = {1: 9, 2: 5}  # values of each range that stays; of more ranges their ends
+MOST_CONDITIONS = 50  # those inside ranges among them; with long lists there may be more
 PERCENTILES_FROM = 2**15  # samples
 BASE, COMPARED = 2**8, 625  # of each replicate: points of the indices, verdicts beside eigenvalues
 SLOWER = 8  # so many times longer take the margins of a vehicle with a car body
@@ -90,8 +89,8 @@ class Uncertainty(Result):
         How the probability was found, in words.
     conditions : int
         Under how many conditions each sample is judged.
-    ranges : tuple of str
-        Of which of them only some values are looked at.
+    held_under : str
+        The same in words.
     percentiles_from, sobol_from : int
         How many samples the percentiles, and evaluations of the margin the indices come from.
     quantiles : mapping
@@ -119,7 +118,7 @@ class Uncertainty(Result):
     status: str
     method: str
     conditions: int
-    ranges: tuple[str, ...]
+    held_under: str
     percentiles_from: int
     sobol_from: int
     quantiles: Mapping[str, tuple[float | None, ...]]
@@ -166,48 +165,35 @@ def uncertainty(
     Examples
     --------
     >>> import yawdesign as yd
-    >>> problem = yd.table1(C_s="1 MN s/m", uncertainty={"lambda": {"uniform": [0.05, 0.4]}, "K_m": {"normal": "10 %"}})
-    >>> yd.uncertainty(problem, samples=2**14).status
+    >>> distributions = {"lambda": {"uniform": [0.05, 0.4]}, "creep_factor": {"uniform": [0.5, 1]}}
+    >>> problem = yd.table1().replace(C_s=1046770, uncertainty=distributions)
+    >>> yd.uncertainty(problem, samples=2**10).status
     'estimated'
     """
     given_damping(problem)
     if not problem.uncertainty:
         raise ProblemError("uncertainty is missing: give distributions, such as lambda: {uniform: [0.05, 0.40]}")
     seed = as_seed(seed) or 0
-    stay = remaining(problem)
-    vehicle = _vehicle(problem, looked_at(stay))
+    vehicle = judged_vehicle(problem)
     asked = _samples(samples, len(vehicle.question.conditions))
     with workers_of(executor, progress) as workers:
-        return _found(workers, problem, vehicle, asked, seed, stay)
+        return _found(workers, problem, vehicle, asked, seed)
 
 
-def remaining(problem: Problem) -> ConditionSet:
+def left(problem: Problem) -> ConditionSet:
     """Return the conditions that no distribution replaces."""
-    keys = [one.key for one in problem.uncertainty]
-    return condition_set(problem).without({*keys, *(f"{TOLERANCE}{key}" for key in keys)})
+    return remaining(problem, "stable", [one.key for one in problem.uncertainty])
 
 
-def looked_at(conditions: ConditionSet) -> tuple[Condition, ...]:
-    """Return conditions with some values of each range, its ends among them."""
-    n = PER_RANGE.get(len(conditions.ranges), 2)
-    grids = [np.linspace(low, high, n).tolist() for _, (low, high) in conditions.ranges]
-    names = [name for name, _ in conditions.ranges]
-    return tuple(
-        conditions.at(place, dict(zip(names, values, strict=True)))
-        for place in range(len(conditions.lists))
-        for values in product(*grids)
-    )
-
-
-def _vehicle(problem: Problem, conditions: tuple[Condition, ...]) -> UncertainVehicle:
+def judged_vehicle(problem: Problem) -> UncertainVehicle:
+    """Return the vehicle of a problem with its uncertain parameters, and the conditions under which it is judged."""
     p = {name: float(value) for name, value in problem.parameters().items()}
     for one in problem.uncertainty:
         if one.key == "v":
             single = len(problem.speeds) == 1
             p["v"] = float(problem.speeds[0] if single else sum(one.ends(0.0)) / 2)
-    question = Question.about(problem, "stable", [one.key for one in problem.uncertainty])
-    own = Question("stable", question.model, conditions, variables=question.variables, curve=problem.curve)
-    return UncertainVehicle(own, Uncertain(p, problem.uncertainty))
+    question = replace(Question.about(problem, "stable"), conditions=left(problem).grid(MOST_CONDITIONS))
+    return UncertainVehicle(question, Uncertain(p, problem.uncertainty))
 
 
 def _samples(asked: int | None, conditions: int) -> int:
@@ -225,11 +211,11 @@ def _power(n: float) -> int:
     return 1 << (max(1, int(n)).bit_length() - 1)
 
 
-def _found(
-    workers: Workers, problem: Problem, vehicle: UncertainVehicle, samples: int, seed: int, stay: ConditionSet
-) -> Uncertainty:
+def _found(workers: Workers, problem: Problem, vehicle: UncertainVehicle, samples: int, seed: int) -> Uncertainty:
     objective, conditions = problem.design.objective, len(vehicle.question.conditions)
     slower = conditions * (SLOWER if problem.car_body else 1)
+    stable = bool(evaluate(vehicle.question, vehicle.uncertain.parameters).columns["stable"][0])
+    designed = as_designed(vehicle, objective)
     probability = probability_unstable(workers, vehicle, samples, seed)
     replicates = draws(vehicle, samples, seed)
     some = min(replicates[0].size, max(2**5, _power(PERCENTILES_FROM / REPLICATES / slower)))
@@ -237,8 +223,7 @@ def _found(
     columns = {name: _answers(workers, vehicle, of, replicates, some) for name, of in values.items()}
     compared = min(replicates[0].size, COMPARED // (SLOWER if problem.car_body else 1))
     differences = sum(workers.all("eigenvalues", vehicle.differing, [(draw, compared) for draw in replicates]))
-    base, d = max(2**4, _power(BASE / slower)), len(problem.uncertainty)
-    designed = as_designed(vehicle, objective)
+    base, d = min(replicates[0].size, max(2**4, _power(BASE / slower))), len(problem.uncertainty)
     return Uncertainty(
         probability_unstable=probability.value,
         interval=probability.interval,
@@ -247,7 +232,7 @@ def _found(
             name: dict(zip(map(str, LEVELS), percentiles(x, LEVELS), strict=True)) for name, x in columns.items()
         },
         sobol=_sobol(workers, vehicle, objective, base, seed),
-        stable=bool(evaluate(vehicle.question, vehicle.uncertain.parameters).columns["stable"][0]),
+        stable=stable,
         objective=objective,
         margin=designed.margin,
         worst_condition=designed.condition.described,
@@ -257,7 +242,7 @@ def _found(
         status=probability.status,
         method=probability.method,
         conditions=conditions,
-        ranges=tuple("speed" if name == "v" else name for name, _ in stay.ranges),
+        held_under=_told(left(problem), conditions),
         percentiles_from=REPLICATES * some,
         sobol_from=REPLICATES * base * (d + 2),
         quantiles={name: percentiles(x, range(101)) for name, x in columns.items()},
@@ -271,6 +256,14 @@ def _found(
 def _answers(workers: Workers, vehicle: UncertainVehicle, of: str, replicates: Sequence[Draw], some: int) -> Array:
     jobs = [(of, draw, some) for draw in replicates]
     return np.concatenate(workers.all("percentiles", vehicle.answered, jobs))
+
+
+def _told(conditions: ConditionSet, number: int) -> str:
+    """Return in words under which conditions each sample is judged."""
+    if not conditions.ranges:
+        return conditions_told(conditions)
+    names = ", ".join("speed" if name == "v" else name for name, _ in conditions.ranges)
+    return f"{number} conditions, with some values of the range of {names}, the ends among them"
 
 
 def _sobol(workers: Workers, vehicle: UncertainVehicle, objective: str, base: int, seed: int) -> dict[str, SobolIndex]:

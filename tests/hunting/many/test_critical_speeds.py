@@ -73,27 +73,17 @@ def test_a_range_is_searched(table1):
     assert critical_speeds(sets, (200 / 3.6, 290 / 3.6)).count.tolist() == [1, 0]
 
 
-# Unstable from 219.72 to 221.12 km/h: two changes that undo each other within one of the 2.46 km/h that are looked at.
-NARROW = {
-    "M_b": 9039.58, "J_b": 9902.78, "M_w": 2217.15, "J_w": 2202.6, "M_m": 1617.43, "J_m": 1261.39, "W": 185130,
-    "K_1x": 49286400, "K_1y": 5213830, "K_2x": 931438, "K_2y": 675889, "K_m": 489176, "K_mphi": 333243,
-    "K_ds": 29312600, "K_dt": 33808300, "K_dm": 33011400, "C_t": 65410.1, "C_mphi": 16413.4, "C_m": 28991.4,
-    "a": 1.5399, "b": 0.91796, "a_0": 1.00365, "b_0": 0.420661, "b_1": 0.811462, "b_2": 1.27891, "b_3": 0.916541,
-    "r": 0.748269, "lambda": 0.5, "f_11": 8008740, "f_22": 10645000,
-}  # fmt: skip
-
-
-def test_two_changes_that_undo_each_other():
-    speeds, field = found(Model().at(NARROW, C_s=117280.942))
+def test_two_changes_that_undo_each_other(narrow_bogie):
+    speeds, field = found(Model().at(narrow_bogie))
     assert speeds[:2] * 3.6 == pytest.approx([219.724254, 221.119203], abs=1e-6)
     assert field.unstable_roots[0][:3].tolist() == [0, 2, 0]
 
 
 @pytest.mark.parametrize("more", [0.0, 10.0, 20.0, 24.0, 30.0, 100.0])
 @pytest.mark.slow
-def test_ever_narrower_intervals(more):
+def test_ever_narrower_intervals(narrow_bogie, more):
     # With more damping the unstable interval shrinks; the largest real part between its ends tells whether it is there.
-    vehicle = Model().at(NARROW, C_s=117280.942 + more)
+    vehicle = Model().at(narrow_bogie, C_s=narrow_bogie["C_s"] + more)
     v = np.linspace(219, 222, 6001) / 3.6
     unstable = eigenvalues(vehicle, v).real.max(axis=1) > 0
     speeds, _ = found(vehicle)
