@@ -33,7 +33,9 @@ from yawdesign.vehicle.vehicle import Model
 Values = dict[str, Any]
 
 # The merit of a design that misses a requirement is less than that of any that meets them: -MISSED (1 + shortfall).
+# An unstable one misses more than any stable one: its shortfall is UNSTABLE and the rate at which it grows [1/s].
 MISSED = 1e6
+UNSTABLE = 100.0
 WORSE = 2e-4  # a condition is added to those looked at if the margin is lower there by so much, relative
 
 
@@ -127,6 +129,11 @@ class Space:
     def worst_margin(self) -> WorstMargin:
         """The margin that is to be largest."""
         return WorstMargin(self.conditions, self.measure)
+
+    @cached_property
+    def steady(self) -> WorstMargin:
+        """The decay rate, whatever margin is to be largest."""
+        return WorstMargin(self.conditions, Measure("decay_rate", self.names))
 
     def with_worst(self, x: Float) -> "Space | None":
         """Return the space that also looks at the conditions in which a design is worse than in those known.
@@ -223,13 +230,20 @@ class Space:
         sets, shape = self._sets(values)
         level = np.broadcast_to(np.asarray(level, dtype=float), sets.size)
         out = np.broadcast_to(self.feasible(values), shape).reshape(-1).copy()
+        short = np.maximum(-(level + MISSED) / MISSED, 0.0) if self.demanded else np.zeros(sets.size)
+        left = np.flatnonzero(out & (short == 0))
+        out[left] = self.worst_margin.exceeds(sets.part(left), level[left])
+        left = np.flatnonzero(out & (short > 0))
+        out[left] = self.steady.exceeds(sets.part(left), -np.maximum(short[left] - UNSTABLE, 0.0))
         for one in self.demanded:
-            left = np.flatnonzero(out)
-            short = np.maximum(-(level[left] + MISSED) / MISSED, 0.0)
-            out[left] = one.met_within(sets.part(left), short)
-        left = np.flatnonzero(out & (level > -MISSED)) if self.demanded else np.arange(sets.size)
-        out[left] &= self.worst_margin.exceeds(sets.part(left), level[left])
+            left = np.flatnonzero(out & (short <= UNSTABLE))
+            out[left] = one.met_within(sets.part(left), short[left])
         return out.reshape(shape)
+
+    @cached_property
+    def is_slow(self) -> bool:
+        """Whether a requirement takes eigenvalues for a verdict."""
+        return any(one.demand.measure.by_eigenvalues for one in self.demanded)
 
     def beats_at(self, x: Float, level: Float) -> Bools:
         """Return the same at points of the cube, shape (variables, points)."""
@@ -243,7 +257,10 @@ class Space:
         sets, shape = self._sets(values)
         merit = np.full(sets.size, np.nan)
         if self.demanded:
-            short = np.max([one.shortfall(sets) for one in self.demanded], axis=0)
+            short = np.clip(np.max([one.shortfall(sets) for one in self.demanded], axis=0), None, UNSTABLE)
+            missed = np.flatnonzero(short > 0)
+            growth = -self.steady.of(sets.part(missed))
+            short[missed] = np.where(growth >= 0, UNSTABLE + growth, short[missed])
             merit = np.where(short > 0, -MISSED * (1 + short), np.nan)
         met = np.isnan(merit)
         merit[met] = self.worst_margin.of(sets.part(met))

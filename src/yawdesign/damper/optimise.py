@@ -18,9 +18,9 @@ from yawdesign.damper.relaxations import conflict, relaxations
 from yawdesign.damper.second_route import Checked, checked_under_all, hurwitz_positive, next_margins
 from yawdesign.damper.stable_intervals import others_stable
 from yawdesign.damper.status import Status
-from yawdesign.hunting.all_conditions import case_verdicts, worst_verdict
+from yawdesign.hunting.all_conditions import Judged, case_verdicts, worst_verdict
 from yawdesign.hunting.arrays import Float
-from yawdesign.hunting.requirements import requirement_verdicts
+from yawdesign.hunting.requirements import required
 from yawdesign.hunting.scope import conditions_told
 from yawdesign.hunting.verdict import CaseVerdict, RequirementVerdict
 from yawdesign.problem import Curve, Problem, ProblemError
@@ -114,7 +114,8 @@ def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
     values = {name: float(np.squeeze(v)) for name, v in space.values(x).items()}
     checked = checked_under_all(space, values)
     nexts = next_margins(space, checked.vehicles) if capping else None
-    requirements = requirement_verdicts(space.problem, values)
+    judged, with_faults = Judged(space.problem, values), [Judged(space.problem, values, x) for x in space.problem.cases]
+    requirements = required(judged, with_faults)
     bounds = {name: _bound(space, name, values[name]) for name in space.names}
     curve = space.curve
     resisted = None if curve is None else largest_resistance(values, values["C_s"], space.loads, curve)
@@ -138,7 +139,7 @@ def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
         margin_polynomial=checked.second,
         checked=status != Status.UNVERIFIED_OPTIMUM,
         requirements=requirements,
-        **_cases(space.problem, values),
+        **_cases(space.problem, tuple(one.case_verdict for one in with_faults)),
     )
 
 
@@ -155,9 +156,8 @@ def _status(checked: Checked, requirements: Sequence[RequirementVerdict], agree:
     return Status.OPTIMAL, Status.OPTIMAL.message
 
 
-def _cases(problem: Problem, values: Mapping[str, float]) -> dict[str, Any]:
+def _cases(problem: Problem, after: tuple[CaseVerdict, ...]) -> dict[str, Any]:
     """Return how the faults are survived by a design and by the problem as written."""
-    after = case_verdicts(problem, values)
     before: tuple[CaseVerdict, ...] = ()
     if problem.bogie.C_s is not None:
         before = case_verdicts(problem, {name: float(value) for name, value in problem.parameters().items()})

@@ -18,6 +18,7 @@ from yawdesign.hunting.arrays import Float, Index
 from yawdesign.problem.arguments import Progress
 
 BLOCK = 100_000  # points at once: enough to hide Python's overhead, few enough for any memory
+SLOW = 8192  # points in all, where verdicts take a thousand times as long
 CELLS = 6  # cells per axis in up to three variables, each with a best point of its own; in all about 6^3
 STARTS = 20  # cells that are refined, in up to three variables; in more of them more
 FIRST = 512  # points that give the cells their first levels
@@ -66,9 +67,10 @@ def search(space: Space, seed: int, progress: Progress) -> Float:
     first = np.concatenate([rng.random((d, FIRST)), space.anchors], axis=1)
     cells.offer(first, space.margins_at(first))
     blocks = list(_blocks(space, rng))
+    most = SLOW // len(blocks) if space.is_slow else BLOCK
     for k, x in enumerate(blocks):
         progress("searching the design space", k / len(blocks))
-        _look(space, cells, x[:, rng.permutation(x.shape[1])])
+        _look(space, cells, x[:, rng.permutation(x.shape[1])[:most]])
     order = np.argsort(-cells.margin, kind="stable")[: STARTS * min(max(1, d - 2), MOST_SPLIT)]
     order = order[np.isfinite(cells.margin[order])]
     return refine(space, cells.x[:, order], cells.margin[order], rng, progress=progress)

@@ -1,7 +1,8 @@
 """The verdict on a design under all conditions of a problem, maybe with a fault.
 
 Of a short list every condition is looked at by both ways. Of a long one, and inside ranges, the conditions with the
-lowest margins are searched by verdicts and eigenvalues in arrays, and then looked at by both ways.
+lowest margins are searched by verdicts and eigenvalues in arrays, and then looked at by both ways. Where a fault makes
+the bogies of a vehicle differ, eigenvalues alone search, and both ways look at the worst.
 """
 
 from collections.abc import Iterable, Mapping
@@ -22,6 +23,7 @@ from yawdesign.problem.conditions import ConditionSet, condition_set
 from yawdesign.vehicle.vehicle import Model
 
 FEW = 32  # conditions of a list that are all looked at by both ways
+FEW_SLOW = 2  # the same where bogies differ: Routh's array takes seconds there
 COMPARED = 1000  # of more, and of corners of ranges: so many verdicts are compared with eigenvalues
 
 
@@ -76,7 +78,8 @@ class Judged:
 
     @property
     def _are_few(self) -> bool:
-        return not self.conditions.ranges and len(self.conditions.lists) <= FEW
+        few = FEW_SLOW if self.every_mode.by_eigenvalues else FEW
+        return not self.conditions.ranges and len(self.conditions.lists) <= few
 
     def at(self, condition: Condition) -> Stability:
         """Return the stability under one condition."""
@@ -91,7 +94,8 @@ class Judged:
     @cached_property
     def checked(self) -> bool:
         """Whether both ways agree: under the worst conditions, and under the corners of many."""
-        return all(found.checked for found in self.looked.values()) and (self._are_few or self._verdicts_agree())
+        alone = self._are_few or self.every_mode.by_eigenvalues
+        return all(found.checked for found in self.looked.values()) and (alone or self._verdicts_agree())
 
     def _verdicts_agree(self) -> bool:
         corners = self.conditions.corners

@@ -24,6 +24,7 @@ from yawdesign.vehicle.vehicle import Model
 PER_RANGE = {1: 129, 2: 33, 3: 17}  # points of the grid along each range; of more ranges there is a Sobol sequence
 SEQUENCE = 8192
 MOST_POINTS = 300_000  # of the grid, all lists together
+MOST_SLOW_POINTS = 2_000  # the same where eigenvalues give the verdicts
 LEAST_POINTS = 16  # for each combination of lists
 SAMPLE = 64  # margins that are computed to lower the level
 FEW = 192  # conditions of which the margins are all computed
@@ -64,7 +65,7 @@ def worst_conditions(model: Model, p: dict[str, Any], conditions: ConditionSet, 
         Which margin.
     """
     names, ends = _names(conditions)
-    place, x = _grid(conditions)
+    place, x = _grid(conditions, MOST_SLOW_POINTS if measure.by_eigenvalues else MOST_POINTS)
     sets = _sets(model, p, conditions, place, x)
     margin = _low_margins(measure, sets, some=bool(conditions.ranges))
     found: list[tuple[int, Float, float]] = []
@@ -81,7 +82,7 @@ def exceeds_everywhere(
     model: Model, p: dict[str, Any], conditions: ConditionSet, measure: Measure, level: float
 ) -> bool:
     """Return whether a margin surely exceeds a level at every point of the grid; the other arguments as above."""
-    yes, sure = measure.exceeds(_sets(model, p, conditions, *_grid(conditions)), level)
+    yes, sure = measure.exceeds(_sets(model, p, conditions, *_grid(conditions, MOST_POINTS)), level)
     return bool(np.all(yes & sure))
 
 
@@ -96,10 +97,10 @@ def _between(ends: Float, x: Float) -> Float:
     return np.asarray(np.clip(low + (high - low) * x, low, high))
 
 
-def _grid(conditions: ConditionSet) -> tuple[Index, Float]:
+def _grid(conditions: ConditionSet, most: int) -> tuple[Index, Float]:
     """Return points in all combinations of lists: which combination, and where in the cube of the ranges."""
     d, lists = len(conditions.ranges), len(conditions.lists)
-    x = _points(d, max(MOST_POINTS // lists, LEAST_POINTS))
+    x = _points(d, max(most // lists, LEAST_POINTS))
     return np.repeat(np.arange(lists), x.shape[1]), np.tile(x, lists)
 
 

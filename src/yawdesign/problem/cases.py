@@ -70,6 +70,11 @@ class Case:
     changes: tuple[Change, ...]
 
     @property
+    def of_one_bogie(self) -> bool:
+        """Whether it makes the bogies of a vehicle differ."""
+        return any(change.key != change.parameter for change in self.changes)
+
+    @property
     def names(self) -> tuple[str, ...]:
         """The names of the numbers that it changes; of one bogie's yaw dampers the share of C_s."""
         pairs = [change.key.rpartition(".") for change in self.changes]

@@ -41,6 +41,14 @@ class Measure:
     pairs: int = 0
     floor: float = -np.inf
 
+    @property
+    def by_eigenvalues(self) -> bool:
+        """Whether verdicts are taken from eigenvalues, which takes longer.
+
+        Bogies that differ are not folded: their polynomials would take minutes to record.
+        """
+        return self.case is not None and self.case.of_one_bogie
+
     def exceeds(self, sets: ParameterSets, level: Float | float) -> tuple[Bools, Bools]:
         """Return where the margin exceeds a level, by Routh's array, and where that is sure.
 
@@ -52,6 +60,9 @@ class Measure:
             [1/s] or [-]; a ratio below zero counts as zero.
         """
         level = np.broadcast_to(np.asarray(level, dtype=float), sets.size)
+        if self.by_eigenvalues:
+            ratio = self.objective == "damping_ratio"
+            return self.of(sets) > (np.maximum(level, 0.0) if ratio else level), np.ones(sets.size, dtype=bool)
         yes, sure = np.zeros((2, sets.size), dtype=bool)
         for place, part in parts_by_zeros(self._of_case(sets)):
             yes[place], sure[place] = self._exceeds(part, level[place])
