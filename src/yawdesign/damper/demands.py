@@ -84,7 +84,7 @@ class Demanded:
     def __init__(self, demand: Demand, conditions: Sequence[Condition]) -> None:
         self.demand = demand
         self.conditions = tuple(conditions)
-        self._margin = WorstMargin(self.conditions, demand.measure)
+        self.worst_margin = WorstMargin(self.conditions, demand.measure)
 
     @cached_property
     def _decay(self) -> WorstMargin:
@@ -93,18 +93,18 @@ class Demanded:
 
     def worst_of(self, sets: ParameterSets) -> Float:
         """Return the margins that are demanded [1/s], [-]."""
-        return self._margin.of(sets)
+        return self.worst_margin.of(sets)
 
     def met_within(self, sets: ParameterSets, short: Float) -> Bools:
         """Return where the shortfall is less than a given one, shape (n,); 0 asks whether the demand is met."""
         demand = self.demand
         level = demand.level - short * demand.scale
         if demand.measure.objective == "decay_rate":
-            return self._margin.exceeds(sets, level)
+            return self.worst_margin.exceeds(sets, level)
         out = np.zeros(sets.size, dtype=bool)
         stable = level >= 0
         if stable.any():
-            out[stable] = self._margin.exceeds(sets.part(stable), level[stable])
+            out[stable] = self.worst_margin.exceeds(sets.part(stable), level[stable])
         if not stable.all():
             out[~stable] = self._decay.exceeds(sets.part(~stable), level[~stable] / demand.scale * SCALE_OF_UNSTABLE)
         return out
@@ -112,7 +112,7 @@ class Demanded:
     def shortfall(self, sets: ParameterSets) -> Float:
         """Return by how much the demand is missed, shape (n,); zero or less where it is met [-]."""
         demand = self.demand
-        reached = self._margin.of(sets)
+        reached = self.worst_margin.of(sets)
         if demand.measure.objective == "damping_ratio" and (unstable := reached < 0).any():
             decay = self._decay.of(sets.part(unstable))
             reached[unstable] = decay / SCALE_OF_UNSTABLE * demand.scale

@@ -19,6 +19,8 @@ from yawdesign.damper.design_space import MISSED, Space, Values
 from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.hunting.eigenvalues import MARGINS, motion_eigenvalues
 from yawdesign.hunting.many.measure import FASTEST, Measure
+from yawdesign.hunting.many.parameter_sets import ParameterSets
+from yawdesign.hunting.many.worst_margin import WorstMargin
 from yawdesign.problem.condition import Condition
 
 OPTIONS: Mapping[str, Any] = {
@@ -34,6 +36,7 @@ OPTIONS: Mapping[str, Any] = {
 }
 MODES = 12  # those with the least margins, which have a model
 APART = (3e-5, 1e-3)  # least and most distance of the designs that a model is made of, in the cube
+CONDITIONS = 10  # those of the least margins, of each margin that counts
 MOST_STEPS = 40
 RADIUS, LEAST_RADIUS = 0.03, 1e-8  # of the trust region, in the cube
 MOST_CURVED = 8  # variables with which models are of second degree; with more, of first
@@ -154,17 +157,27 @@ class LocalImprover:
     def _rows(self, x: Float, merit: float) -> _Rows:
         """Return the margins of the modes that matter at the first of some points, those of capped modes first."""
         values, missed = self.space.values(x), merit < -MISSED
-        parts = [] if missed else [self._of_objective(values, condition) for condition in self.space.conditions]
+        near = {name: float(np.ravel(value)[0]) for name, value in values.items()}
+        parts: list[_Rows] = []
+        if not missed:
+            parts = [self._of_objective(values, condition) for condition in self._worst(near, self.space.worst_margin)]
         parts += [
             self._of_demand(values, one.demand, condition, merit, missed)
             for one in self.space.demanded
-            for condition in one.conditions
+            for condition in self._worst(near, one.worst_margin)
         ]
         rows = _Rows(*(np.concatenate(column) for column in zip(*parts, strict=True)))
         level = np.where(rows.capped > 0, rows.floor, merit)
         least = np.argsort(rows.margin[:, 0] - level, kind="stable")
         least = np.resize(least[: self.modes], self.modes)  # of fewer modes some twice
         return _Rows(*(column[least] for column in rows))
+
+    def _worst(self, values: Values, looked_at: WorstMargin) -> list[Condition]:
+        """Return the conditions of the least margins of a design."""
+        if len(looked_at.conditions) <= CONDITIONS:
+            return list(looked_at.conditions)
+        each = looked_at.under_each(ParameterSets(self.space.model, values, 1))[:, 0]
+        return [looked_at.conditions[k] for k in np.argsort(each, kind="stable")[:CONDITIONS]]
 
     def _of_objective(self, values: Values, condition: Condition) -> _Rows:
         """Return the margins that are to be large under a condition; with pairs the first ones are capped."""
