@@ -29,6 +29,7 @@ from yawdesign.problem.table import as_seed
 from yawdesign.vehicle.vehicle import Vehicle
 
 ACTIVE = 1e-4  # a variable within this share of its range from a bound stands at the bound
+NAMED = 4  # changes that the message names
 WORSE = 1e-6  # by so much of it a fault's decay rate must fall to be called worse [1/s]
 
 
@@ -62,7 +63,7 @@ def optimise(
     """
     seed = as_seed(seed) or 0
     if problem.design.catalogue:
-        alone = partial(optimise, seed=seed, options=options)
+        alone = partial(_without_changes, seed=seed, options=options or {})
         damper, best = best_of_catalogue(problem, alone, executor=executor, progress=progress)
         return replace(best, damper=damper.name)
     spread = map if executor is None else as_executor(executor).map
@@ -70,11 +71,18 @@ def optimise(
     if found.status not in (Status.UNSTABLE, Status.NO_FEASIBLE_DESIGN):
         return found
     near = None if found.C_s is None else {name: bound.value for name, bound in found.bounds.items()}
-    return replace(
-        found,
-        conflict=conflict(problem, seed=seed),
-        relaxations=relaxations(problem, design=near, seed=seed, progress=progress),
+    changes = relaxations(problem, design=near, seed=seed, progress=progress)
+    enough = [change.name for change in changes if change.met][:NAMED]
+    remedy = (
+        f"enough alone is a change of {' or '.join(enough)}" if enough else "no single change that was tried is enough"
     )
+    message = found.message.replace(Status.UNSTABLE.remedy, remedy)
+    return replace(found, message=message, conflict=conflict(problem, seed=seed), relaxations=changes)
+
+
+def _without_changes(problem: Problem, seed: int, options: Mapping[str, Any]) -> Optimum:
+    """Return the best design of a damper of a catalogue."""
+    return _optimum(problem, seed, options, lambda text, part: None)
 
 
 def _optimum(problem: Problem, seed: int, options: Mapping[str, Any], progress: Progress, spread: Map = map) -> Optimum:
