@@ -8,6 +8,7 @@ from yawdesign.problem.condition_texts import change_text, range_text
 from yawdesign.problem.conditions import ConditionSet
 from yawdesign.vehicle.vehicle import Vehicle
 
+ONE_ONLY = "one condition only"
 LOW_CONICITY = 0.2  # below about this a car body that moves may ask for many times the damping
 
 STANDS_STILL = (
@@ -59,7 +60,7 @@ def conditions_told(conditions: ConditionSet, p: Mapping[str, Any] | None = None
         texts = {name: change_text(name, *each) for name, each in values.items()}
         creep = [] if CREEP_FACTOR.key in values or set(CREEP) & values.keys() else ["creep as given"]
         speed = [texts.pop("speed")] if "speed" in texts else []
-        return "one condition only: " + ", ".join([*texts.values(), *creep, *speed])
+        return f"{ONE_ONLY}: " + ", ".join([*texts.values(), *creep, *speed])
     each_of = "; ".join(change_text(name, *each) for name, each in values.items())
     if not conditions.ranges:
         return f"all {len(conditions.lists)} conditions ({each_of})"

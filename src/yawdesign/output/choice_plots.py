@@ -1,17 +1,25 @@
 """Picture of the dampers of a catalogue: the margin of each over its damping."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from yawdesign.output.design_plots import DAMPING
-from yawdesign.output.pictures import literal, new_axes
+from yawdesign.output.pictures import literal, new_axes, under_conditions
 from yawdesign.output.sweep_style import legend_below
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.transforms import BboxBase
 
     from yawdesign.damper.candidates import Choice
 
-NAMED = 12  # dampers whose names stand beside them, the first ones
+NAMED = 30  # dampers whose names stand beside them where there is room, the first ones
+RIGHT, LEFT = {"ha": "left"}, {"ha": "right"}
+SIDES: tuple[dict[str, Any], ...] = (
+    {"xytext": (5, 5), **RIGHT},
+    {"xytext": (-5, 5), **LEFT},
+    {"xytext": (5, -12), **RIGHT},
+    {"xytext": (-5, -12), **LEFT},
+)
 # Signs differ in shape, and not in colour alone.
 SIGNS = {
     "ok": ("o", "#1b6e3a"),
@@ -33,6 +41,8 @@ def draw_choice(result: "Choice", ax: "Axes | None" = None) -> "Axes":
     ax : matplotlib.axes.Axes, optional
         Where to draw.
     """
+    from matplotlib.ticker import LogFormatter
+
     ax = new_axes(ax)
     scale = 100.0 if result.objective == "damping_ratio" else 1.0
     for status, (sign, colour) in SIGNS.items():
@@ -43,10 +53,8 @@ def draw_choice(result: "Choice", ax: "Axes | None" = None) -> "Axes":
             marker = "D" if sign == "?" else sign
             label = f"{status} ({len(some)})"
             ax.plot(*points, linestyle="none", marker=marker, color=colour, label=label, **filled)  # type: ignore[arg-type]
-    for each in result.candidates[:NAMED]:
-        place = each.C_s * DAMPING, scale * each.margin
-        ax.annotate(literal(each.name), place, (5, 5), textcoords="offset points", size="small")
     ax.axhline(0.0, color="black", linewidth=0.8)
+    ax.margins(0.08, 0.1)  # room for names
     positive = all(each.C_s > 0 for each in result.candidates)
     unit = "%" if result.objective == "damping_ratio" else "1/s"
     ax.set(
@@ -56,6 +64,25 @@ def draw_choice(result: "Choice", ax: "Axes | None" = None) -> "Axes":
     )
     best = result.best
     title = f"Best of {len(result.candidates)} dampers: {literal(best.name)}" if best else "No damper keeps all limits"
-    ax.set_title(title, loc="left", fontsize="medium")
+    ax.set_title(under_conditions(title, result.searched), loc="left", fontsize="medium")
+    if positive:
+        ax.xaxis.set_major_formatter(LogFormatter())
+        ax.xaxis.set_minor_formatter(LogFormatter())
     legend_below(ax)
+    _write_names(ax, result, scale)
     return ax
+
+
+def _write_names(ax: "Axes", result: "Choice", scale: float) -> None:
+    """Write the name of each damper beside its sign, of the best first, where it covers no other name."""
+    written: list[BboxBase] = []
+    inside = ax.get_window_extent()
+    for each in result.candidates[:NAMED]:
+        place = each.C_s * DAMPING, scale * each.margin
+        for side in SIDES:
+            name = ax.annotate(literal(each.name), place, textcoords="offset points", size="small", **side)
+            box = name.get_window_extent()
+            if all(map(inside.contains, *zip(box.min, box.max, strict=True))) and not box.count_overlaps(written):
+                written.append(box)
+                break
+            name.remove()

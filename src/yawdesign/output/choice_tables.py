@@ -69,7 +69,7 @@ def _reasons(shown: "tuple[Candidate, ...]") -> list[Table]:
 
 def _cases(shown: "tuple[Candidate, ...]") -> list[Table]:
     """Return what happens with each fault, for the dampers that keep all limits."""
-    table = titled("Faults", "damper", "case", "stable", "decay rate [1/s]", "damping ratio [%]")
+    table = titled("Faults", "damper", "fault", "stable", "decay rate [1/s]", "damping ratio [%]")
     for each in shown:
         for case in each.cases if each.status == "ok" and each.searched else ():
             stable = "yes" if case.stable else "NO"

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from yawdesign.output.condition_texts import condition_text
-from yawdesign.output.pictures import new_axes
+from yawdesign.output.critical_speed_tables import up_to_text
+from yawdesign.output.pictures import new_axes, under_conditions
 from yawdesign.output.sweep_style import COLOURS, STABLE, UNSTABLE, legend_below
 from yawdesign.output.tables import speed
 from yawdesign.problem import to_unit
@@ -29,7 +30,7 @@ def draw_critical_speeds(result: "CriticalSpeeds", ax: "Axes | None" = None) -> 
     ax = new_axes(ax)
     low, high = (to_unit(end, "km/h") for end in result.searched)
     end = high if result.stable_up_to is None else max(low, to_unit(result.stable_up_to, "km/h"))
-    ax.axvspan(low, end, color=STABLE, linewidth=0, label="stable under all conditions")
+    ax.axvspan(low, end, color=STABLE, linewidth=0, label="stable")
     if end < high:
         ax.axvspan(end, high, color=UNSTABLE, linewidth=0, label="from the first unstable speed on")
     condition = {name: value for name, value in result.worst_condition.items() if name != "speed"}
@@ -41,6 +42,7 @@ def draw_critical_speeds(result: "CriticalSpeeds", ax: "Axes | None" = None) -> 
     wanted = f"1.1 v = {speed(result.speed_wanted)}"
     ax.axvline(to_unit(result.speed_wanted, "km/h"), color="black", linestyle="dashed", label=wanted)
     ax.set(xlim=(low, high), xlabel="running speed $v$ [km/h]", ylabel="least decay rate of all modes [1/s]")
-    ax.set_title("Critical speed", loc="left", fontsize="medium")
+    found = f"none up to {up_to_text(result)}" if result.stable_up_to is None else up_to_text(result)
+    ax.set_title(under_conditions(f"Critical speed: {found}", result.conditions), loc="left", fontsize="medium")
     legend_below(ax)
     return ax

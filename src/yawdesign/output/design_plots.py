@@ -1,13 +1,13 @@
 """Pictures of a forward design and of an optimum."""
 
-import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from yawdesign.damper.status import Status
 from yawdesign.output.condition_texts import condition_text
-from yawdesign.output.pictures import literal, new_axes
+from yawdesign.output.pictures import LINE, literal, new_axes, under_conditions
 from yawdesign.output.sweep_style import COLOURS, STABLE, UNSTABLE, legend_below
 from yawdesign.output.tables import critical_shown, margin
 from yawdesign.problem import PARAMETERS, ProblemError, format_quantity, to_unit
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from yawdesign.damper.optimum import Optimum
 
 DAMPING = to_unit(1.0, "kN·s/m")
+BESIDE_NAMES = 55  # signs of a title above a picture that has names of conditions on its left
 
 
 def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
@@ -40,13 +41,13 @@ def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
         ax.axvspan(max(start * DAMPING, low), min(stop * DAMPING, high), color=STABLE, linewidth=0, label=text)
     _critical(result, ax)
     if result.C_su is not None and result.C_su > 0:
-        text = rf"$C_\mathrm{{su}}$ = {_damping(result.C_su)}, limit of the curve"
+        text = rf"$C_\mathrm{{su}}$ = {_damping(result.C_su)}, curve's limit"
         ax.axvline(result.C_su * DAMPING, color="black", linestyle="dashed", label=text)
     if result.C_s is not None:
         text = rf"$C_\mathrm{{s}}$ = {_damping(result.C_s)}, golden section"
         ax.axvline(result.C_s * DAMPING, color="#1f4e9e", linewidth=2.5, label=text)
     ax.set(xscale="log", xlim=(low, high), xlabel=r"damping of the pair of yaw dampers $C_\mathrm{s}$ [kN·s/m]")
-    title = textwrap.fill(literal(f"Forward design: {result.status}, under {result.searched}"), 90)
+    title = under_conditions(f"Forward design: {result.status}", result.searched, BESIDE_NAMES if many else LINE)
     ax.set_title(title, loc="left", fontsize="medium")
     legend_below(ax)
     return ax
@@ -73,10 +74,8 @@ def _critical(result: "ForwardDesign", ax: "Axes") -> None:
         shown = critical_shown(result)
         rows = list(dict.fromkeys(condition_text(x.condition) for x in shown))
         _draw_points(ax, shown, [rows.index(condition_text(x.condition)) for x in shown])
-        ax.set_yticks([])
-        for k, row in enumerate(rows):
-            ax.annotate(literal(row), (0.01, k + 0.12), xycoords=ax.get_yaxis_transform(), fontsize="x-small")
-        ax.set_ylim(-0.7, len(rows) - 0.3)
+        ax.set_yticks(range(len(rows)), [literal(row) for row in rows], fontsize="small")
+        ax.set_ylim(-0.6, len(rows) - 0.4)
         return
     ax.set_yticks([])
     for x in result.critical:
@@ -111,7 +110,8 @@ def draw_optimum(result: "Optimum", ax: "Axes | None" = None) -> "Axes":
     ax.set_yticks(range(len(names)), [f"${PARAMETERS[name].symbol}$" for name in names])
     ax.set(xlim=(-3, 103), ylim=(len(names) - 0.4, -0.6), xlabel="place between the bounds, on a logarithmic scale [%]")
     before, after = margin(result.margin_before, result.objective), margin(result.margin, result.objective)
-    ax.set_title(f"Least {result.objective.replace('_', ' ')}: {before} → {after}", loc="left", fontsize="medium")
+    title = f"Least {result.objective.replace('_', ' ')}: {before} → {after}"
+    ax.set_title(under_conditions(title, result.searched), loc="left", fontsize="medium")
     legend_below(ax)
     return ax
 
@@ -119,7 +119,9 @@ def draw_optimum(result: "Optimum", ax: "Axes | None" = None) -> "Axes":
 def _variable(ax: "Axes", row: int, name: str, result: "Optimum") -> None:
     bound, before, unit = result.bounds[name], result.before[name], PARAMETERS[name].unit
     place = 100 * bound.position
-    label: dict[str, Any] = {"label": "optimum"} if row == 0 else {}
+    label: dict[str, Any] = (
+        {"label": "optimum" if result.status == Status.OPTIMAL else "best found"} if row == 0 else {}
+    )
     ax.plot([0, 100], [row, row], color="#bbbbbb", linewidth=6, solid_capstyle="butt", zorder=0)
     ax.plot([place], [row], "o", color="#1f4e9e", markersize=9, **label)
     for x, value, align in ((0, bound.min, "left"), (100, bound.max, "right")):
@@ -127,7 +129,8 @@ def _variable(ax: "Axes", row: int, name: str, result: "Optimum") -> None:
             format_quantity(value, unit, 4), (x, row), (0, -14), textcoords="offset points", ha=align, size="small"
         )
     text = format_quantity(bound.value, unit, 4)
-    ax.annotate(text, (place, row), (0, 9), textcoords="offset points", ha="center", color="#1f4e9e")
+    align = "left" if place < 10 else "right" if place > 90 else "center"  # it stays inside the picture
+    ax.annotate(text, (place, row), (0, 9), textcoords="offset points", ha=align, color="#1f4e9e")
     if before is not None and before > 0 and bound.min > 0:
         was = 100 * np.log(before / bound.min) / np.log(bound.max / bound.min)
         label = {"label": "before"} if row == 0 else {}

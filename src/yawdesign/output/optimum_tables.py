@@ -9,20 +9,24 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from yawdesign.damper.status import Status
 from yawdesign.output.condition_texts import condition_text
 from yawdesign.output.relaxation_tables import relaxation_tables
 from yawdesign.output.tables import (
     design_tables,
     facts,
+    holds_under,
     margin,
     modes_table,
     requirement_tables,
     scope_lines,
     titled,
+    verdict_lines,
 )
 from yawdesign.problem import PARAMETERS, format_quantity
 
 if TYPE_CHECKING:
+    from yawdesign.damper.forward import ForwardDesign
     from yawdesign.damper.optimum import Optimum, SingleOptimum
 
 SHOWN_CAPPING = 5  # sensitivities
@@ -30,21 +34,34 @@ SHOWN_CAPPING = 5  # sensitivities
 
 def optimum_tables(result: "Optimum") -> RenderableType:
     """Return the tables of an `Optimum`."""
-    first = Text(f"{result.status}: {result.message}.\nUnder {result.searched}.")
+    sensitivity = result.forward.sensitivity if result.margin is not None else {}
+    first = verdict_lines(result.status, holds_under(result.searched, sensitivity), result.message)
     change = relaxation_tables(result.conflict, result.relaxations, result.objective)
     if result.margin is None:
         return Group(first, *change)
     own = [_optimum_facts(result), *change, _bounds(result), *requirement_tables(result.requirements), *_cases(result)]
     modes = [modes_table(result.modes), _fixed(result)]
-    forward = replace(result.forward, scope="", requirements=(), cases=())
+    forward = _beside(result.forward)
     return Group(first, *scope_lines(result.forward.scope), *own, *modes, design_tables(forward))
+
+
+def _beside(forward: "ForwardDesign") -> "ForwardDesign":
+    """Return a forward design without what stands above it, and without the advice to optimise."""
+    remedy = Status.named(forward.status).remedy
+    told = forward.message.removesuffix(remedy).rstrip(":; ") if "optimise" in remedy else forward.message
+    searched = "the same conditions; requirements and faults are looked at for the design above"
+    return replace(forward, scope="", searched=searched, requirements=(), cases=(), message=told)
+
+
+def _found(result: "Optimum") -> str:
+    return "optimum" if result.status == Status.OPTIMAL else "best found"
 
 
 def _optimum_facts(result: "Optimum") -> Table:
     name = {"decay_rate": "least decay rate", "damping_ratio": "least damping ratio"}[result.objective]
     rows = [
         (f"{name}, before", margin(result.margin_before, result.objective)),
-        (f"{name}, optimum", margin(result.margin, result.objective)),
+        (f"{name}, {_found(result)}", margin(result.margin, result.objective)),
         ("the same by Routh's array", margin(result.margin_polynomial, result.objective)),
         ("Hurwitz minors all positive", "yes" if result.hurwitz_positive else "no"),
         ("active limits", ", ".join(result.active) or "none: the optimum is inside its bounds"),
@@ -64,7 +81,7 @@ def _optimum_facts(result: "Optimum") -> Table:
         rows.append(("rotational resistance T/(4Qa)", f"{result.rotational_resistance:.5f}"))
     if result.single_bogie is not None:
         rows += _single_rows(result, result.single_bogie)
-    return facts("Optimum", rows)
+    return facts(_found(result).capitalize(), rows)
 
 
 def _single_rows(result: "Optimum", alone: "SingleOptimum") -> list[tuple[str, str]]:
@@ -80,8 +97,8 @@ def _cases(result: "Optimum") -> Iterator[RenderableType]:
     """Yield the table of what happens with each fault, before and after, and what has become worse."""
     if not result.cases:
         return
-    columns = "case", "stable", "decay rate before [1/s]", "decay rate [1/s]", "damping ratio [%]", "worst condition"
-    table = titled("Faults of the optimum, each under all conditions", *columns)
+    columns = "fault", "stable", "decay rate before [1/s]", "decay rate [1/s]", "damping ratio [%]", "worst condition"
+    table = titled("Faults, each under all conditions", *columns)
     before = {case.name: f"{case.decay_rate:.4g}" for case in result.cases_before}
     for case in result.cases:
         stable = ("yes" if case.stable else "NO") if case.checked else "not verified"
@@ -95,7 +112,7 @@ def _cases(result: "Optimum") -> Iterator[RenderableType]:
 
 
 def _bounds(result: "Optimum") -> Table:
-    table = titled("Design variables", "variable", "before", "optimum", "min", "max", "place between the bounds")
+    table = titled("Design variables", "variable", "before", _found(result), "min", "max", "place between the bounds")
     for name, bound in result.bounds.items():
         unit = PARAMETERS[name].unit
         before = result.before[name]

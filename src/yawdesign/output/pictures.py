@@ -1,6 +1,7 @@
 """What every picture needs: axes to draw into, texts that Matplotlib sets itself, and the file it is written to."""
 
 import io
+import textwrap
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
@@ -20,6 +21,7 @@ PICTURES = (".png", ".pdf", ".svg")
 ANIMATIONS = (".gif", ".svg")
 WRITTEN_BY = {".png": "agg", ".gif": "agg", ".pdf": "pdf", ".svg": "svg"}  # backends of Matplotlib
 DOTS_PER_INCH = 150
+LINE = 80  # signs of a title that fit into one line
 # Whatever a user's matplotlibrc says: the texts hold Matplotlib's own mathematics, which LaTeX does not understand.
 TEXTS = {"text.usetex": False, "text.parse_math": True}
 
@@ -48,6 +50,11 @@ def literal(text: str) -> str:
 def with_condition(title: str, condition: Mapping[str, Any]) -> str:
     """Return a title with the condition of a result in a line below, unless its values are as written."""
     return "\n".join(filter(None, (title, literal(other_condition_in_words(condition)))))
+
+
+def under_conditions(title: str, conditions: str, line: int = LINE) -> str:
+    """Return a title that says under which conditions it holds, in lines that fit into a picture."""
+    return textwrap.fill(f"{title}, under {literal(conditions)}", line)
 
 
 def check_pictures(*paths: Path | None) -> None:

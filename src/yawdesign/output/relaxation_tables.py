@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from yawdesign.damper.relaxations import Relaxation
 
 DIGITS = 4
+LONG = 16  # signs of a key that stand in one line
 SPEED_KINDS = ("speed", "critical_speed")
 
 
@@ -37,11 +38,12 @@ def relaxation_tables(
         table = titled("What to change, one at a time", "", "from", "to", "change", *variables, "margin")
         for column in table.columns:
             column.overflow = "fold"  # a number that is cut off would be another one
+        table.columns[0].no_wrap = True
         for one in enough:
             design = (format_quantity(one.design[name], PARAMETERS[name].unit, DIGITS) for name in variables)
             change = [shown_value(one.name, x) for x in (one.now, one.value or 0.0)]
             share = f"{100 * (one.change or 0.0):+.3g} %"
-            table.add_row(one.name, *change, share, *design, margin(one.margin, objective))
+            table.add_row(_in_two_lines(one.name), *change, share, *design, margin(one.margin, objective))
         found.append(table)
     helpless = [
         f"{one.name} ({_reach(one)} {shown_value(one.name, one.searched)})" for one in relaxations if not one.met
@@ -49,6 +51,11 @@ def relaxation_tables(
     if helpless:
         found.append(Text(f"Not enough alone: {', '.join(helpless)}."))
     return found
+
+
+def _in_two_lines(name: str) -> str:
+    """Return a key with a line break after its first part where it is long, and no other."""
+    return name.replace(".", ".\n", 1) if len(name) > LONG else name
 
 
 def _reach(relaxation: "Relaxation") -> str:

@@ -1,5 +1,6 @@
 """What pictures of sweeps and of designs have in common: colours, words, scales, titles, critical curves."""
 
+import re
 import textwrap
 from typing import TYPE_CHECKING, Any
 
@@ -33,6 +34,7 @@ LABELS = {
     "critical_speed": "critical speed $v$",
     "stable": "",
 }
+SIGNS_BELOW, SIGNS_OF_A_MARK = 112, 9  # how many signs of a legend fit side by side, how many a mark takes
 DECADES = 1000.0  # of a logarithmic scale, below its largest value
 WIDE = 30.0  # ratio of values from which on a logarithmic scale reads better
 
@@ -85,8 +87,13 @@ def scale_axis(set_scale: Any, axis: Axis) -> None:
 
 
 def legend_below(ax: "Axes", **options: Any) -> None:
-    """Explain a picture that leaves no room inside."""
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=3, fontsize="small", frameon=False, **options)
+    """Explain a picture that leaves no room inside, in as many columns as fit below it."""
+    labels = [re.sub(r"[\\${}]|mathrm", "", label) for label in ax.get_legend_handles_labels()[1]]
+    longest = max(map(len, labels), default=0)
+    columns = max(1, min(3, SIGNS_BELOW // (longest + SIGNS_OF_A_MARK)))
+    ax.legend(
+        loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=columns, fontsize="small", frameon=False, **options
+    )
 
 
 def columns_of(sweep: Sweep, factor: float) -> list[CriticalColumn]:

@@ -1,7 +1,7 @@
 """Results as tables for a terminal; nothing is computed here."""
 
 import io
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from math import inf, log, pi
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from yawdesign.hunting.chosen_condition import condition_in_words
+from yawdesign.hunting.scope import ONE_ONLY
 from yawdesign.output.condition_texts import condition_text
 from yawdesign.problem import PARAMETERS, format_quantity
 from yawdesign.problem.requirements import CASES
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from yawdesign.hunting.verdict import CaseVerdict, Mode, RequirementVerdict, Stability
 
 DAMPING = "kN·s/m"
-SHOWN, SHOWN_CRITICAL = 10, 12  # sensitivities
+SHOWN, SHOWN_CRITICAL, NAMED = 10, 12, 3  # sensitivities, critical values, sensitivities in the first line
 
 
 def titled(title: str, *columns: str) -> Table:
@@ -122,7 +123,7 @@ def scope_lines(scope: str) -> list[Text]:
 
 def case_tables(cases: "Iterable[CaseVerdict]") -> list[Table]:
     """Return the table of what happens with each fault."""
-    table = titled("Faults", "case", "stable", "decay rate [1/s]", "damping ratio [%]")
+    table = titled("Faults", "fault", "stable", "decay rate [1/s]", "damping ratio [%]")
     table.add_column("at", justify="left")
     for case in cases:
         stable = ("yes" if case.stable else "NO") if case.checked else "not verified"
@@ -131,9 +132,29 @@ def case_tables(cases: "Iterable[CaseVerdict]") -> list[Table]:
     return [table] if table.row_count else []
 
 
+def verdict_lines(status: str, under: str, message: str) -> Text:
+    """Return what kind of answer it is and under which conditions; what that means stands in the next line."""
+    return Text(f"{status}, {under}.\n{message[0].upper()}{message[1:]}.")
+
+
+def holds_under(searched: str, sensitivity: Mapping[str, float]) -> str:
+    """Return under which conditions an answer holds and, where that is one only, what moves C_sl most.
+
+    Examples
+    --------
+    >>> holds_under("one condition only: 300 km/h", {"a": -42.3, "K_m": -7.4, "v": 25.9, "f_11": -20.2})
+    'under one condition only: 300 km/h; 1 % more of a changes C_sl by -42.3 %, of v by +25.9 %, of f_11 by -20.2 %'
+    """
+    if not (searched.startswith(ONE_ONLY) and sensitivity):
+        return f"under {searched}"
+    (name, value), *others = sorted(sensitivity.items(), key=lambda item: -abs(item[1]))[:NAMED]
+    more = "".join(f", of {other} by {change:+.1f} %" for other, change in others)
+    return f"under {searched}; 1 % more of {name} changes C_sl by {value:+.1f} %{more}"
+
+
 def design_tables(result: "ForwardDesign") -> RenderableType:
     """Return the tables of a `ForwardDesign`."""
-    first = Text(f"Forward design: {result.status}, under {result.searched}.", "bold")
+    first = Text(f"Forward design: {result.status}, {holds_under(result.searched, result.sensitivity)}.", "bold")
     beside = [] if result.single_bogie is None else [_beside(result, result.single_bogie)]
     met = [*requirement_tables(result.requirements), *case_tables(result.cases)]
     own = [_design_facts(result), *met, *beside, *_critical(result), *_sensitivities(result)]

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.damper.curving import RAISING
-from yawdesign.output.pictures import new_axes
+from yawdesign.output.pictures import new_axes, under_conditions
 from yawdesign.output.sweep_style import SHOWN, WIDE
 from yawdesign.problem import PARAMETERS, ProblemError, to_unit
 
@@ -63,8 +63,9 @@ def _draw_front(result: "TradeOff", ax: "Axes") -> None:
     ax.set_ylabel(f"{name} [{unit}]")
     ax.grid(color="#dddddd", linewidth=0.6)
     ends = "" if result.ends_at is None else f": no more margin from {result.ends_at:.4g} on"
-    ax.set_title(f"Margin and rotational resistance{ends}", loc="left", fontsize="medium")
-    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.08), ncols=2, fontsize="small", frameon=False)
+    title = f"Margin and rotational resistance{ends}"
+    ax.set_title(under_conditions(title, result.searched), loc="left", fontsize="medium")
+    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.12), ncols=2, fontsize="small", frameon=False)
 
 
 def _draw_variable(result: "TradeOff", ax: "Axes", name: str) -> None:
@@ -82,6 +83,7 @@ def _draw_variable(result: "TradeOff", ax: "Axes", name: str) -> None:
     # The resistance is linear in what it rises with.
     if name not in RAISING and min(values) > 0 and max(values) > WIDE / 3 * min(values):
         ax.set_yscale("log")
+        ax.yaxis.set_minor_formatter("")
     ax.set_ylabel(f"${row.symbol}$" + (f"\n[{unit}]" if unit != "-" else ""))
     ax.grid(color="#dddddd", linewidth=0.6)
 

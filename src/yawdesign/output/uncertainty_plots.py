@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from yawdesign.output.pictures import new_axes
+from yawdesign.output.pictures import new_axes, under_conditions
 from yawdesign.output.sweep_style import STABLE, UNSTABLE
 from yawdesign.problem import PARAMETERS, ProblemError, to_unit
 from yawdesign.problem.condition import CREEP_FACTOR
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 OF = ("tornado", "margin", "C_sl")
 UNITS = {"decay_rate": "1/s", "damping_ratio": "%", "C_sl": "kN·s/m"}
-GROWS, FALLS = "#1f4e9e", "#b2182b"
+GROWS, FALLS = "#1f4e9e", "#f2a48c"  # apart in grey, too
 
 
 def draw_uncertainty(result: "Uncertainty", ax: "Axes | None" = None, *, of: str = "tornado") -> "Axes":
@@ -37,7 +37,9 @@ def draw_uncertainty(result: "Uncertainty", ax: "Axes | None" = None, *, of: str
     (_tornado if of == "tornado" else _distribution)(result, ax, of)
     value, (low, high) = result.probability_unstable, result.interval
     text = f"between {low:.2g} and {high:.2g}" if value is None else f"{value:.4g} ± {(high - low) / 2:.1g}"
-    ax.set_title(f"Probability of instability: {text}", loc="left", fontsize="medium")
+    ax.set_title(
+        under_conditions(f"Probability of instability: {text}", result.held_under), loc="left", fontsize="medium"
+    )
     return ax
 
 
@@ -58,7 +60,7 @@ def _tornado(result: "Uncertainty", ax: "Axes", of: str) -> None:
         ax.barh(range(len(names)), widths, left=middle, color=colour, label=label)
     ax.axvline(middle, color="black", linewidth=1)
     ax.set_yticks(range(len(names)), [_symbol(name) for name in names])
-    ax.set_xlabel(f"least {result.objective.replace('_', ' ')} [{unit}], by its gradient as designed")
+    ax.set_xlabel(f"least {result.objective.replace('_', ' ')} [{unit}], by its gradient at the values as designed")
     ax.legend(fontsize="small")
 
 

@@ -21,13 +21,12 @@ def uncertainty_tables(result: "Uncertainty") -> RenderableType:
 
 
 def _first_line(result: "Uncertainty") -> Text:
-    low, high = result.interval
+    (low, high), under = result.interval, f", under {result.held_under}"
     if result.probability_unstable is None:
-        return Text(
-            f"The samples cannot tell how likely it is unstable: between {low:.2g} and {high:.2g}.", "bold yellow"
-        )
+        told = f"The samples cannot tell how likely it is unstable: between {low:.2g} and {high:.2g}"
+        return Text(f"{told}{under}.", "bold yellow")
     value, half = result.probability_unstable, (high - low) / 2
-    return Text(f"The probability that it is unstable is {value:.4g} ± {half:.1g}.", "bold")
+    return Text(f"The probability that it is unstable is {value:.4g} ± {half:.1g}{under}.", "bold")
 
 
 def _facts(result: "Uncertainty") -> Iterator[tuple[str, str]]:
@@ -35,7 +34,6 @@ def _facts(result: "Uncertainty") -> Iterator[tuple[str, str]]:
     yield "95 % interval of the probability", f"{low:.6g} ... {high:.6g}"
     yield "found by", result.method
     yield "unstable samples", f"{result.failures} of {result.samples}"
-    yield "judged under", result.held_under
     yield "as designed", "stable" if result.stable else "UNSTABLE"
     yield f"{result.objective.replace('_', ' ')} as designed", margin(result.margin, result.objective)
     wrong = f"{result.differences} of {result.compared} verdicts differ from eigenvalues" if result.differences else ""
