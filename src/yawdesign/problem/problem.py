@@ -261,7 +261,7 @@ def _speed(given: Any) -> float | tuple[float, ...] | SpeedRange:
         return as_speeds(given, SPEED.accept)
     unknown = next((key for key in given if key not in ("min", "max", "steps")), None)
     if unknown is not None:
-        raise ProblemError(f"{shown(given)} is no range: {unknown} is not known, it has min, max and steps")
+        raise ProblemError(f"speed: {shown(given)} is no range: {unknown} is not known, it has min, max and steps")
     return SpeedRange(**given)
 
 
