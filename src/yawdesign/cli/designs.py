@@ -19,7 +19,7 @@ from yawdesign.cli.answering import (
 
 
 def stability(file: ProblemFile, as_json: AsJson = False) -> None:
-    """Tell whether bogie or vehicle is stable with its C_s, with all modes and margins, and with which faults."""
+    """Tell whether bogie or vehicle is stable with its C_s, under all conditions and with each fault."""
     result = _answer(file, as_json, "yawdesign.hunting.stability", "stability")
     raise ended(checked=result.checked, feasible=result.stable and _met(result))
 
