@@ -203,4 +203,4 @@ def test_tables_and_picture_name_the_conditions():
     assert "lambda 0.25, creep x 0.5, 300 km/h" in text
     axes = yd.plot(result)
     assert "all 15 conditions" in axes.get_title("left")
-    assert any("creep x 0.5" in each.get_text() for each in axes.texts)
+    assert any("creep x 0.5" in each.get_text() for each in axes.get_yticklabels())
