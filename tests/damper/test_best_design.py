@@ -87,7 +87,7 @@ def test_verified_numbers(names, objective, known, C_s, margins):
 @pytest.mark.slow
 def test_seeds_give_one_margin(names):
     problem = problem_of(*names, conditions=FIFTEEN)
-    results = [yd.optimise(problem, seed=seed).margin for seed in range(1, 3 if names == ("C_s",) else 6)]
+    results = [yd.optimise(problem, seed=seed).margin for seed in range(1, 3 if names == ("C_s",) else 5)]
     known = next(number for these, _, number, _ in KNOWN if these == names)
     assert results == pytest.approx([known] * len(results), rel=1e-6)
 
@@ -96,7 +96,7 @@ RANGE_CASES = [
     pytest.param({"names": ("C_s",)}, 31, id="C_s", marks=pytest.mark.slow),
     pytest.param({"names": ("C_s",), "objective": "damping_ratio"}, 31, id="ratio", marks=pytest.mark.slow),
     pytest.param({"names": ("C_s",), "kind": "trailer"}, 31, id="trailer"),
-    pytest.param({"names": ("C_s", "C_m")}, 101, id="two variables", marks=pytest.mark.slow),
+    pytest.param({"names": ("C_s", "C_m")}, 41, id="two variables", marks=pytest.mark.slow),
     pytest.param({"names": ALL}, 201, id="three variables", marks=pytest.mark.slow),
 ]
 
@@ -160,9 +160,7 @@ def test_a_worst_speed_between_the_first_looks(narrow_bogie, margins):
 def test_tolerances_and_loads_act_on_margin_and_curve(margins):
     """The damper itself deviates: the curve allows less of it as designed, and its margin is the worst of all."""
     loads = {"tare": {"W": 170e3}, "laden": {"W": 200e3}}
-    problem = problem_of(
-        "C_s", objective="damping_ratio", conditions={"tolerance": {"C_s": "15 %", "K_m": "10 %"}, "load": loads}
-    )
+    problem = problem_of("C_s", conditions={"tolerance": {"C_s": "15 %", "K_m": "10 %"}, "load": loads})
     result = yd.optimise(problem)
     assert result.status == "optimal"
     K_m, shares, every = 626480.0, np.linspace(-1, 1, 21), []
@@ -177,7 +175,8 @@ def test_tolerances_and_loads_act_on_margin_and_curve(margins):
     most = 1.15 * result.C_s * p["b_3"] ** 2 + p["C_t"] * p["b_0"] ** 2
     moment = most * curve.L * curve.V_r / (2 * curve.R * curve.l) + p["K_2x"] * p["b_2"] ** 2 * curve.L / (2 * curve.R)
     assert result.rotational_resistance == pytest.approx(float(moment) / (4 * 170e3 * 1.25), rel=1e-9)
-    assert result.rotational_resistance <= 0.08 * (1 + 1e-9)
+    assert result.rotational_resistance == pytest.approx(0.08, rel=1e-9)
+    assert result.active == ("rotational_resistance",)
 
 
 def test_the_optimum_makes_the_loss_of_both_dampers_worse(margins):
@@ -288,8 +287,8 @@ def test_a_stable_design_is_told_where_an_unstable_one_meets_the_requirements(ma
 
 
 @pytest.mark.slow
-def test_what_excludes_each_other_under_fifteen_conditions():
-    result = yd.optimise(problem_of("C_s", conditions=FIFTEEN, requirements={"damping_ratio": "9 %"}))
+def test_what_excludes_each_other():
+    result = yd.optimise(problem_of("C_s", conditions=LEAST_CREEP, requirements={"damping_ratio": "9 %"}))
     assert result.conflict == ("requirements.damping_ratio",)
     by_name = {one.name: one for one in result.relaxations}
     assert by_name["requirements.damping_ratio"].value == pytest.approx(0.0680112, rel=1e-3)  # what C_s alone reaches
