@@ -134,3 +134,12 @@ def test_designs_without_a_damper_are_taken_apart(drawn):
     no, _ = measure.exceeds(together, np.array(alone) + 1e-4)
     assert yes.all()
     assert not no.any()
+
+
+def test_doubtful_verdicts_are_left_to_the_eigenvalues(drawn, monkeypatch):
+    """Where no verdict is sure, the worst margin is the same."""
+    _, sets = drawn(20)
+    worst = WorstMargin(CONDITIONS, Measure("decay_rate", VARIABLES)).of(sets)
+    unsure = np.array([[True], [False]])
+    monkeypatch.setattr(Measure, "exceeds", lambda own, here, level: unsure & np.ones(here.size, dtype=bool))
+    assert WorstMargin(CONDITIONS, Measure("decay_rate", VARIABLES)).of(sets) == pytest.approx(worst, rel=1e-12)
