@@ -65,11 +65,12 @@ def right(tmp_path_factory):
     """Return right values of what functions need, and of what makes them quick, by function or for all."""
     folder, problem = tmp_path_factory.mktemp("arguments"), yd.table1()
     damper = yd.CatalogueDamper(name="x", damping=4e5, stiffness=2e7)
+    uncertain = problem.replace(uncertainty={"lambda": {"uniform": [0.1, 0.2]}})
     choosing = problem.replace(design=yd.Design(catalogue=(damper,)))
     modes = yd.modes(problem)
     numbers = iter(range(10**6))
     return lambda name: {
-        "problem": choosing if name == "choose" else problem,
+        "problem": {"choose": choosing, "uncertainty": uncertain}.get(name, problem),
         "result": modes,
         "to": folder / f"{next(numbers)}.svg",
         "path": folder / f"{next(numbers)}.fmu",

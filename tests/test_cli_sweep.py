@@ -135,7 +135,7 @@ def test_jobs_and_dask(tmp_path):
 
     expected = answer(*CURVE)["values"]
     assert answer(*CURVE, "--jobs", 2)["values"] == [pytest.approx(x, rel=1e-12) for x in expected]
-    with LocalCluster(processes=False, n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster:
+    with LocalCluster(processes=False, n_workers=1, threads_per_worker=1, dashboard_address=":0") as cluster:
         found = answer(*CURVE, "--dask", cluster.scheduler_address)["values"]
     assert found == [pytest.approx(x, rel=1e-12) for x in expected]
 

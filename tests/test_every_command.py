@@ -154,6 +154,27 @@ def test_optimise(answered, spectrum):
         assert found["margin"] == pytest.approx(-max(root.real for root in s), rel=1e-6)
 
 
+def test_choose(answered, file, spectrum):
+    data = json.loads(file.read_text(encoding="utf-8"))
+    rows = [{"name": "weak", "damping": 3e5, "stiffness": 8e6}, {"name": "strong", "damping": 6e5, "stiffness": 9e6}]
+    data["design"] = {"catalogue": rows, "variables": {"K_1y": {"min": 1e6, "max": 1e8}}}
+    file.write_text(json.dumps(data), encoding="utf-8")
+    candidates = answered("choose", codes=(0, 1))["candidates"]
+    assert {row["name"] for row in candidates} == {"weak", "strong"}
+    for row in candidates:
+        s = spectrum(C_s=row["C_s"], K_ds=row["K_ds"])
+        assert min(abs(s.real + row["margin"])) < 1e-7  # a mode that the variables do not move may be less damped
+        assert row["margin"] >= -s.real.max() - 1e-7
+
+
+@pytest.mark.slow
+def test_trade_off(answered, spectrum):
+    front = answered("trade-off", "--points", "2", codes=(0, 1))["front"]
+    for point in front:
+        s = spectrum(**{name: point[name] for name in ("C_s", "K_m", "C_m") if point.get(name) is not None})
+        assert min(abs(s.real + point["margin"])) < 1e-6
+
+
 @pytest.mark.slow
 def test_uncertainty(answered, file, spectrum):
     data = json.loads(file.read_text(encoding="utf-8"))

@@ -58,7 +58,7 @@ def test_threads(expected):
 
 def test_dask_client(expected):
     with (
-        LocalCluster(processes=False, n_workers=1, threads_per_worker=2, dashboard_address=None) as cluster,
+        LocalCluster(processes=False, n_workers=1, threads_per_worker=2, dashboard_address=":0") as cluster,
         Client(cluster) as client,
     ):
         assert same(yd.sweep(PRINTED, executor=client, chunk=4, **GRID), expected)

@@ -19,7 +19,7 @@ from .quantities import Written, exact
 from .requirements import Requirement, as_requirements
 from .requirements import written as written_requirements
 from .running import CURVE, SPEED, Curve, SpeedRange, as_speeds
-from .table import RIGID, Parameter, as_choice, as_text, field_name, key_of
+from .table import RIGID, Parameter, as_choice, as_text, field_name, key_of, shown
 from .variables import Design, default_variables
 from .written_conditions import as_conditions
 
@@ -257,7 +257,12 @@ def _speed(given: Any) -> float | tuple[float, ...] | SpeedRange:
     """Return speeds as a problem holds them: a range may be given as a problem file has it."""
     if isinstance(given, SpeedRange):
         return given
-    return SpeedRange(**given) if isinstance(given, Mapping) else as_speeds(given, SPEED.accept)
+    if not isinstance(given, Mapping):
+        return as_speeds(given, SPEED.accept)
+    unknown = next((key for key in given if key not in ("min", "max", "steps")), None)
+    if unknown is not None:
+        raise ProblemError(f"speed: {shown(given)} is no range: {unknown} is not known, it has min, max and steps")
+    return SpeedRange(**given)
 
 
 def _given(part: Bogie | CarBody) -> dict[str, Any]:

@@ -100,8 +100,10 @@ def as_speeds(value: Any, check: Callable[[object], float] = SPEED.check) -> flo
     if isinstance(value, (str, Mapping)) or not hasattr(value, "__len__"):
         return check(value)
     entries = as_several(value)
-    if not 0 < len(entries) <= MOST_SPEEDS:
-        raise ProblemError(f"{len(entries)} speeds: give one to {MOST_SPEEDS}, or a range {{min: ..., max: ...}}")
+    if not entries:
+        raise ProblemError("is an empty list: give the speeds, or a range {min: ..., max: ...}")
+    if len(entries) > MOST_SPEEDS:
+        raise ProblemError(f"{len(entries)} speeds: give at most {MOST_SPEEDS}, or a range {{min: ..., max: ...}}")
     mistakes, found = Mistakes(), set[float]()
     for k, entry in enumerate(entries):
         with mistakes.under(f"{k}"):

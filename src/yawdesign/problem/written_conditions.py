@@ -33,8 +33,8 @@ def as_conditions(value: object) -> Conditions:
 
 def read_conditions(value: object) -> tuple[Conditions, list[Diagnostic]]:
     """Return the conditions that are right, and the mistakes in the others."""
-    if isinstance(value, Conditions) or value == {}:
-        return value or Conditions(), []  # type: ignore[return-value]
+    if isinstance(value, Conditions) or (isinstance(value, Mapping) and not value):
+        return value or Conditions(), []
     mistakes = Mistakes()
     values: dict[str, tuple[float, ...]] = {}
     ranges: dict[str, tuple[float, float]] = {}
