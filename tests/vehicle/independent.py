@@ -8,6 +8,8 @@ Numbers may be of any type.
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
 GRAVITY = (980665, 100000)  # m/s^2
 BOGIES = {"leading": 1, "trailing": -1}
 
@@ -42,7 +44,7 @@ class Equations:
 
     def damper(self, c, stiffness, u):
         """Add a damper, in series with a spring unless its mounting is rigid (None)."""
-        if c == 0:
+        if not isinstance(c, np.ndarray) and c == 0:
             return
         if stiffness is None:
             self.between(self.C, c, u)
@@ -95,6 +97,13 @@ def equations(kind, p, flags=()):
         own = {name.removeprefix(f"{which}."): x for name, x in p.items() if name.startswith(f"{which}.")}
         bogie(found, kind, {**p, **own}, flags, end, BOGIES[which])
     return found
+
+
+def eigenvalues(kind, p):
+    """Return the eigenvalues of vehicles, shape (n, states); numbers may be arrays of shape (n,)."""
+    rows = equations(kind, p).state_matrix()
+    entries = np.broadcast_arrays(*[np.asarray(x, dtype=float) for row in rows for x in row], np.zeros(1))[:-1]
+    return np.linalg.eigvals(np.stack(entries, axis=-1).reshape(-1, len(rows), len(rows)))
 
 
 def coordinates(kind, rolls, end):

@@ -19,7 +19,7 @@ from yawdesign.damper.curving import (
     resistance_scale,
     resisting_moment,
 )
-from yawdesign.damper.demands import Demand, Demanded, demands
+from yawdesign.damper.demands import RESERVE, Demand, Demanded, demands
 from yawdesign.hunting.arrays import Bools, Float
 from yawdesign.hunting.many.measure import Measure
 from yawdesign.hunting.many.parameter_sets import ParameterSets
@@ -36,6 +36,8 @@ Values = dict[str, Any]
 # An unstable one misses more than any stable one: its shortfall is UNSTABLE and the rate at which it grows [1/s].
 MISSED = 1e6
 UNSTABLE = 100.0
+STEADY = RESERVE["decay_rate"]  # decay rate from which a design counts as stable there, so that it surely is [1/s]
+NEARLY_UNSTABLE = 1e-3  # margins below it are looked at closer [1/s], [-]
 WORSE = 2e-4  # a condition is added to those looked at if the margin is lower there by so much, relative
 
 
@@ -225,7 +227,8 @@ class Space:
         values : mapping
             Parameters and C_s in SI units: numbers, or arrays of one shape (n,).
         level : number or array
-            [1/s] or [-]; below `MISSED` that of designs that miss a requirement.
+            [1/s] or [-]; below -`MISSED` that of designs that miss a requirement. With requirements, a level from there
+            to zero asks whether these are met, of stable designs and unstable ones.
         """
         sets, shape = self._sets(values)
         level = np.broadcast_to(np.asarray(level, dtype=float), sets.size)
@@ -234,7 +237,7 @@ class Space:
         left = np.flatnonzero(out & (short == 0))
         out[left] = self.worst_margin.exceeds(sets.part(left), level[left])
         left = np.flatnonzero(out & (short > 0))
-        out[left] = self.steady.exceeds(sets.part(left), -np.maximum(short[left] - UNSTABLE, 0.0))
+        out[left] = self.steady.exceeds(sets.part(left), STEADY - np.maximum(short[left] - UNSTABLE, 0.0))
         for one in self.demanded:
             left = np.flatnonzero(out & (short <= UNSTABLE))
             out[left] = one.met_within(sets.part(left), short[left])
@@ -250,7 +253,7 @@ class Space:
         return np.broadcast_to(self.beats(self.values(x), level), x.shape[1:])
 
     def margins(self, values: Values) -> Float:
-        """Return the merits: margins, less than -`MISSED` where a requirement is missed.
+        """Return the merits: margins, less than -`MISSED` where a requirement, or with one stability, is missed.
 
         Minus infinity where the curve's limit is exceeded. Parameters as in `beats`.
         """
@@ -259,11 +262,14 @@ class Space:
         if self.demanded:
             short = np.clip(np.max([one.shortfall(sets) for one in self.demanded], axis=0), None, UNSTABLE)
             missed = np.flatnonzero(short > 0)
-            growth = -self.steady.of(sets.part(missed))
+            growth = STEADY - self.steady.of(sets.part(missed))
             short[missed] = np.where(growth >= 0, UNSTABLE + growth, short[missed])
             merit = np.where(short > 0, -MISSED * (1 + short), np.nan)
-        met = np.isnan(merit)
+        met = np.flatnonzero(np.isnan(merit))
         merit[met] = self.worst_margin.of(sets.part(met))
+        if self.demanded and (low := met[merit[met] < NEARLY_UNSTABLE]).size:
+            growth = STEADY - self.steady.of(sets.part(low))
+            merit[low] = np.where(growth >= 0, -MISSED * (1 + UNSTABLE + growth), merit[low])
         return np.where(self.feasible(values), merit.reshape(shape), -np.inf)
 
     def meets(self, x: Float) -> bool:
