@@ -11,6 +11,7 @@ from yawdesign.damper.best_design import Map, best_design
 from yawdesign.damper.capping import GIVEN_AWAY, CappingMode, at_design, capping_modes, names_of, sensitivity
 from yawdesign.damper.catalogue_optimum import best_of_catalogue
 from yawdesign.damper.curving import excess, largest_resistance
+from yawdesign.damper.demands import LEAST_SCALE, RESERVE
 from yawdesign.damper.design_space import MISSED, Space, fraction, scale
 from yawdesign.damper.forward import ForwardDesign, design, forward_design
 from yawdesign.damper.optimum import Bound, Optimum, SingleOptimum
@@ -249,6 +250,14 @@ def _active(
     ends += [(f"{name} max", 1 - b.position) for name, b in bounds.items()]
     if resistance is not None and curve is not None:
         ends.append(("rotational_resistance", 1 - resistance / curve.limit))
-    known = [(f"requirements.{x.name}", x.reached, x.wanted) for x in requirements]
-    ends += [(name, reached / wanted - 1) for name, reached, wanted in known if reached is not None and wanted]
+    ends += [(f"requirements.{x.name}", _room(x)) for x in requirements]
     return tuple(name for name, gap in ends if gap < ACTIVE)
+
+
+def _room(requirement: RequirementVerdict) -> float:
+    """Return by which share more is reached than a requirement makes a design keep."""
+    if requirement.reached is None:
+        return np.inf
+    measure = requirement.name.rpartition(".")[2]
+    kept = max(requirement.wanted, RESERVE.get(measure, 0.0))
+    return (requirement.reached - kept) / max(requirement.wanted, LEAST_SCALE.get(measure, 0.0))
