@@ -177,11 +177,13 @@ def damper_alone(objective, **changes):
 def test_a_requirement_that_decides_is_met_inside_ranges():
     """Conditions that are hardly worse than those known do not make the optimum miss what it can have."""
     ranges = {"lambda": {"min": 0.05, "max": 0.4}, "creep_factor": {"min": 0.5, "max": 1.0}}
-    result = yd.optimise(damper_alone("damping_ratio", conditions=ranges, requirements={"decay_rate": 1.7}))
+    problem = damper_alone("damping_ratio", conditions=ranges, requirements={"decay_rate": 1.7})
+    result = yd.optimise(problem)
     assert result.status == "optimal"
     assert result.requirements[0].met
     assert result.requirements[0].reached == pytest.approx(1.7, rel=1e-4)
     assert result.margin == pytest.approx(0.066868, abs=2e-6)
+    assert result.margin == pytest.approx(yd.stability(problem.replace(C_s=result.C_s)).damping_ratio, rel=1e-9)
     assert result.active == ("requirements.decay_rate",)
 
 

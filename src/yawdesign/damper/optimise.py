@@ -21,9 +21,11 @@ from yawdesign.damper.stable_intervals import others_stable
 from yawdesign.damper.status import Status
 from yawdesign.hunting.all_conditions import Judged, case_verdicts, worst_verdict
 from yawdesign.hunting.arrays import Float
+from yawdesign.hunting.many.measure import Measure
 from yawdesign.hunting.requirements import required
 from yawdesign.hunting.scope import conditions_told
 from yawdesign.hunting.verdict import CaseVerdict, RequirementVerdict
+from yawdesign.hunting.worst_condition import worst_conditions
 from yawdesign.problem import Curve, Problem, ProblemError
 from yawdesign.problem.arguments import Progress, as_executor
 from yawdesign.problem.table import as_seed
@@ -121,7 +123,7 @@ def _single(space: Space, seed: int, options: Mapping[str, Any]) -> SingleOptimu
 
 def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
     values = {name: float(np.squeeze(v)) for name, v in space.values(x).items()}
-    checked = checked_under_all(space, values)
+    checked = checked_under_all(_with_lowest(space, values), values)
     nexts = next_margins(space, checked.vehicles) if capping else None
     judged, with_faults = Judged(space.problem, values), [Judged(space.problem, values, x) for x in space.problem.cases]
     requirements = required(judged, with_faults)
@@ -150,6 +152,15 @@ def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
         requirements=requirements,
         **_cases(space.problem, tuple(one.case_verdict for one in with_faults)),
     )
+
+
+def _with_lowest(space: Space, values: Mapping[str, float]) -> Space:
+    """Return a space that looks also at the worst conditions inside ranges that are hardly worse than those known."""
+    if not space.condition_set.ranges:
+        return space
+    measure = Measure(space.objective, space.names)
+    found = (worst.condition for worst in worst_conditions(space.model, dict(values), space.condition_set, measure))
+    return replace(space, known=(tuple(dict.fromkeys((*space.conditions, *found))), *space.known[1:]))
 
 
 def _status(checked: Checked, requirements: Sequence[RequirementVerdict], agree: bool) -> tuple[Status, str]:
