@@ -32,6 +32,7 @@ from yawdesign.problem.table import as_seed
 from yawdesign.vehicle.vehicle import Vehicle
 
 ACTIVE = 1e-4  # a variable within this share of its range from a bound stands at the bound
+OF_CATALOGUE = "`choose` tells what each damper of the catalogue lacks"  # nothing is relaxed there
 NAMED = 4  # changes that the message names
 WORSE = 1e-6  # by so much of it a fault's decay rate must fall to be called worse [1/s]
 
@@ -68,7 +69,7 @@ def optimise(
     if problem.design.catalogue:
         alone = partial(_without_changes, seed=seed, options=options or {})
         damper, best = best_of_catalogue(problem, alone, executor=executor, progress=progress)
-        return replace(best, damper=damper.name)
+        return replace(best, damper=damper.name, message=best.message.replace(Status.UNSTABLE.remedy, OF_CATALOGUE))
     spread = map if executor is None else as_executor(executor).map
     found = _optimum(problem, seed, options or {}, progress, spread)
     if found.status not in (Status.UNSTABLE, Status.NO_FEASIBLE_DESIGN):
