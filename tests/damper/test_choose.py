@@ -238,3 +238,9 @@ def test_optimise_moves_the_other_variables():
             grid = [yd.stability(alone.replace(K_m=K_m)).decay_rate for K_m in np.geomspace(100e3, 2e6, 60)]
             every.append(max(grid))
     assert found.margin > max(every) * (1 - 1e-6)
+
+
+def test_an_optimum_of_a_catalogue_without_an_answer_says_where_the_reasons_are():
+    found = yd.optimise(problem(rows(2), {"C_m": yd.Variable(min=5e3, max=1e5)}, requirements={"damping_ratio": 0.3}))
+    assert (found.status, found.relaxations) == ("infeasible", ())
+    assert found.message.endswith("`choose` tells what each damper of the catalogue lacks")

@@ -169,3 +169,34 @@ def test_a_range_of_speeds_has_its_worst():
     assert result.margin == pytest.approx(min(alone), rel=1e-9)
     worst = problem.replace(speed=result.worst_condition["speed"])
     assert result.margin <= yd.optimise(worst).margin * (1 + 1e-6)
+
+
+def damper_alone(objective, **changes):
+    return problem_of(objective, "reciprocal", C_s=yd.Variable(min=1e4, max=1e7)).replace(**changes)
+
+
+def test_a_requirement_that_decides_is_met_inside_ranges():
+    """Conditions that are hardly worse than those known do not make the optimum miss what it can have."""
+    ranges = {"lambda": {"min": 0.05, "max": 0.4}, "creep_factor": {"min": 0.5, "max": 1.0}}
+    problem = damper_alone("damping_ratio", conditions=ranges, requirements={"decay_rate": 1.7})
+    result = yd.optimise(problem)
+    assert result.status == "optimal"
+    assert result.requirements[0].met
+    assert result.requirements[0].reached == pytest.approx(1.7, rel=1e-4)
+    assert result.margin == pytest.approx(0.066868, abs=2e-6)
+    assert result.margin == pytest.approx(yd.stability(problem.replace(C_s=result.C_s)).damping_ratio, rel=1e-9)
+    assert result.active == ("requirements.decay_rate",)
+
+
+def test_a_requirement_of_nothing_but_stability_may_be_active():
+    """The best design stands where it becomes stable with its fault."""
+    cases = {"three of four yaw dampers lost": {"C_s": "25 %", "K_ds": "25 %"}}
+    conditions = {"lambda": [0.05, 0.4], "creep_factor": [0.5, 1.0]}
+    problem = damper_alone("damping_ratio", conditions=conditions, cases=cases)
+    free = yd.optimise(problem)
+    assert free.active == ()
+    assert not free.cases[0].stable
+    result = yd.optimise(problem.replace(requirements={"cases": {"damping_ratio": 0}}))
+    assert result.status == "optimal"
+    assert result.cases[0].stable
+    assert "requirements.cases.damping_ratio" in result.active

@@ -173,6 +173,20 @@ def test_speeds_that_are_off_are_not_verified(monkeypatch):
     assert not stable_speeds(judged(given)).checked
 
 
+def test_a_condition_that_is_no_limit_need_not_be_sure():
+    """Where conditions are ranges, a corner of which the speed far above the limit is not sure spoils no answer."""
+    conditions = {
+        "lambda": {"min": 0.05, "max": 0.40},
+        "creep_factor": [0.6, 1.0],
+        "tolerance": {"C_s": 0.15},
+        "load": {"tare": {"W": 180e3}, "laden": {"W": 200e3}},
+    }
+    found = yd.critical_speed(problem(1.2e6, conditions=conditions).replace(K_ds=28e6))
+    assert found.stable_up_to == pytest.approx(98.86195, rel=1e-6)
+    assert found.worst_condition["lambda"] == pytest.approx(0.173, abs=1e-3)
+    assert found.checked
+
+
 @pytest.mark.slow
 def test_under_a_car_body_with_a_fault_in_ranges(car_body):
     given = problem(1.3e6, conditions=RANGES, car_body=yd.CarBody(**car_body))

@@ -20,6 +20,7 @@ from yawdesign.vehicle.vehicle import Model
 # What counts as one in the shortfall from a requirement: its level, but at least this [1/s], [-].
 LEAST_SCALE = {"decay_rate": 0.1, "damping_ratio": 0.01}
 RESERVE = {"decay_rate": 1e-5, "damping_ratio": 1e-6}  # where no more than stability is wanted [1/s], [-]
+SPARE = 1e-6  # share by which more than what is required is demanded where a worst condition inside ranges is searched
 SCALE_OF_UNSTABLE = 1.0  # [1/s], of what a damping ratio falls short of where it is negative
 
 
@@ -45,6 +46,11 @@ class Demand:
     conditions: ConditionSet
 
     @property
+    def enough(self) -> float:
+        """What meets the requirement where conditions are ranges: nearly the level [1/s], [-]."""
+        return self.level * (1 - SPARE / 2)
+
+    @property
     def scale(self) -> float:
         """What counts as one in its shortfall [1/s], [-]."""
         if self.requirement.measure == "critical_speed":
@@ -65,7 +71,8 @@ def demands(problem: Problem, model: Model) -> tuple[Demand, ...]:
                     Demand(each, measure, RESERVE["decay_rate"], given.with_speeds(LOWEST_SEARCHED, float(each.wanted)))
                 )
             else:
-                level = max(float(each.wanted), RESERVE[each.measure])
+                spare = SPARE if given.ranges else 0.0
+                level = max(float(each.wanted) * (1 + spare), RESERVE[each.measure])
                 found.append(Demand(each, Measure(each.measure, variables, case), level, given))
     return tuple(found)
 

@@ -140,18 +140,20 @@ class Space:
     def with_worst(self, x: Float) -> "Space | None":
         """Return the space that also looks at the conditions in which a design is worse than in those known.
 
-        None if there are none by more than a share of `WORSE`: a search has found none.
+        None if there are none by more than a share of `WORSE`, and none in which a requirement is missed that is met
+        in those known: a search has found none.
         """
         values = {name: float(np.squeeze(value)) for name, value in self.values(x).items()}
         sets = ParameterSets(self.model, values, 1)
-        looked = [(self.measure, self.condition_set, self.worst_margin.of(sets), self.conditions)]
+        looked = [(self.measure, self.condition_set, self.worst_margin.of(sets), self.conditions, np.inf)]
         looked += [
-            (one.demand.measure, one.demand.conditions, one.worst_of(sets), one.conditions) for one in self.demanded
+            (one.demand.measure, one.demand.conditions, one.worst_of(sets), one.conditions, one.demand.enough)
+            for one in self.demanded
         ]
         known, more = [], False
-        for measure, conditions, least, have in looked:
+        for measure, conditions, (least,), have, enough in looked:
             found = worst_conditions(self.model, values, conditions, measure) if conditions.ranges else ()
-            limit = float(least[0]) - WORSE * abs(float(least[0]))
+            limit = max(float(least) - WORSE * abs(float(least)), enough if least >= enough else -np.inf)
             new = [worst.condition for worst in found if worst.margin < limit and worst.condition not in have]
             known.append((*have, *new))
             more = more or bool(new)

@@ -11,6 +11,7 @@ from yawdesign.damper.best_design import Map, best_design
 from yawdesign.damper.capping import GIVEN_AWAY, CappingMode, at_design, capping_modes, names_of, sensitivity
 from yawdesign.damper.catalogue_optimum import best_of_catalogue
 from yawdesign.damper.curving import excess, largest_resistance
+from yawdesign.damper.demands import LEAST_SCALE, RESERVE
 from yawdesign.damper.design_space import MISSED, Space, fraction, scale
 from yawdesign.damper.forward import ForwardDesign, design, forward_design
 from yawdesign.damper.optimum import Bound, Optimum, SingleOptimum
@@ -20,15 +21,18 @@ from yawdesign.damper.stable_intervals import others_stable
 from yawdesign.damper.status import Status
 from yawdesign.hunting.all_conditions import Judged, case_verdicts, worst_verdict
 from yawdesign.hunting.arrays import Float
+from yawdesign.hunting.many.measure import Measure
 from yawdesign.hunting.requirements import required
 from yawdesign.hunting.scope import conditions_told
 from yawdesign.hunting.verdict import CaseVerdict, RequirementVerdict
+from yawdesign.hunting.worst_condition import worst_conditions
 from yawdesign.problem import Curve, Problem, ProblemError
 from yawdesign.problem.arguments import Progress, as_executor
 from yawdesign.problem.table import as_seed
 from yawdesign.vehicle.vehicle import Vehicle
 
 ACTIVE = 1e-4  # a variable within this share of its range from a bound stands at the bound
+OF_CATALOGUE = "`choose` tells what each damper of the catalogue lacks"  # nothing is relaxed there
 NAMED = 4  # changes that the message names
 WORSE = 1e-6  # by so much of it a fault's decay rate must fall to be called worse [1/s]
 
@@ -65,7 +69,7 @@ def optimise(
     if problem.design.catalogue:
         alone = partial(_without_changes, seed=seed, options=options or {})
         damper, best = best_of_catalogue(problem, alone, executor=executor, progress=progress)
-        return replace(best, damper=damper.name)
+        return replace(best, damper=damper.name, message=best.message.replace(Status.UNSTABLE.remedy, OF_CATALOGUE))
     spread = map if executor is None else as_executor(executor).map
     found = _optimum(problem, seed, options or {}, progress, spread)
     if found.status not in (Status.UNSTABLE, Status.NO_FEASIBLE_DESIGN):
@@ -120,7 +124,7 @@ def _single(space: Space, seed: int, options: Mapping[str, Any]) -> SingleOptimu
 
 def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
     values = {name: float(np.squeeze(v)) for name, v in space.values(x).items()}
-    checked = checked_under_all(space, values)
+    checked = checked_under_all(_with_lowest(space, values), values)
     nexts = next_margins(space, checked.vehicles) if capping else None
     judged, with_faults = Judged(space.problem, values), [Judged(space.problem, values, x) for x in space.problem.cases]
     requirements = required(judged, with_faults)
@@ -149,6 +153,15 @@ def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
         requirements=requirements,
         **_cases(space.problem, tuple(one.case_verdict for one in with_faults)),
     )
+
+
+def _with_lowest(space: Space, values: Mapping[str, float]) -> Space:
+    """Return a space that looks also at the worst conditions inside ranges that are hardly worse than those known."""
+    if not space.condition_set.ranges:
+        return space
+    measure = Measure(space.objective, space.names)
+    found = (worst.condition for worst in worst_conditions(space.model, dict(values), space.condition_set, measure))
+    return replace(space, known=(tuple(dict.fromkeys((*space.conditions, *found))), *space.known[1:]))
 
 
 def _status(checked: Checked, requirements: Sequence[RequirementVerdict], agree: bool) -> tuple[Status, str]:
@@ -249,6 +262,14 @@ def _active(
     ends += [(f"{name} max", 1 - b.position) for name, b in bounds.items()]
     if resistance is not None and curve is not None:
         ends.append(("rotational_resistance", 1 - resistance / curve.limit))
-    known = [(f"requirements.{x.name}", x.reached, x.wanted) for x in requirements]
-    ends += [(name, reached / wanted - 1) for name, reached, wanted in known if reached is not None and wanted]
+    ends += [(f"requirements.{x.name}", _room(x)) for x in requirements]
     return tuple(name for name, gap in ends if gap < ACTIVE)
+
+
+def _room(requirement: RequirementVerdict) -> float:
+    """Return by which share more is reached than a requirement makes a design keep."""
+    if requirement.reached is None:
+        return np.inf
+    measure = requirement.name.rpartition(".")[2]
+    kept = max(requirement.wanted, RESERVE.get(measure, 0.0))
+    return (requirement.reached - kept) / max(requirement.wanted, LEAST_SCALE.get(measure, 0.0))

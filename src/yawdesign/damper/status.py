@@ -81,7 +81,7 @@ class Status(StrEnum):
     OPTIMAL = "optimal", "best design found within the bounds and the curve's limit"
     UNSTABLE = (
         "unstable",
-        "no design within the bounds is stable",
+        "no design within the bounds and the curve's limit is stable",
         "see what is enough to change",
     )
     NO_FEASIBLE_DESIGN = (
@@ -91,7 +91,7 @@ class Status(StrEnum):
     )
     REQUIREMENTS_MISSED = (
         "infeasible",
-        "no design within the bounds meets all requirements",
+        "no design within the bounds and the curve's limit meets all requirements",
         "see what is enough to change",
     )
     UNVERIFIED_OPTIMUM = (

@@ -117,11 +117,11 @@ def stable_speeds(judged: Judged) -> StableSpeeds:
     given, searched = judged.conditions.without({"v"}), searched_speeds(judged)
     corners = given.corners if len(given.corners) <= FEW_CORNERS else ()
     lines, lowest, agreed = _worst_added(judged, given, _lines(judged, corners, searched), searched)
-    agreed = agreed and all(line.verified for line in lines)
+    every = all(line.verified for line in lines)
     limit = _limit(lines, searched[0])
     if np.isinf(limit):
         good = judged.at(lowest)
-        return StableSpeeds((), None, lowest, searched, agreed and good.stable and good.checked)
+        return StableSpeeds((), None, lowest, searched, agreed and every and good.stable and good.checked)
     first = min(lines, key=lambda line: line.first_unstable(searched[0]))
     worst = first.condition.with_values({"v": limit})
     if limit == searched[0]:
@@ -129,10 +129,10 @@ def stable_speeds(judged: Judged) -> StableSpeeds:
     else:
         passed, up_to = _ends_at(judged, worst), limit
     critical = tuple(first.changes) if given.is_one else tuple(_ends(lines, searched))
-    if given.ranges or not corners:  # only the lowest one was searched under all conditions
-        critical = tuple(x for x in critical if x.v == up_to)
+    if given.ranges or not corners:  # only the lowest one was searched under all conditions, by another way too
+        critical, every = tuple(x for x in critical if x.v == up_to), first.verified
     on_axis = all(_on_axis(judged, x, lines) for x in critical)
-    return StableSpeeds(critical, up_to, worst, searched, agreed and passed and on_axis)
+    return StableSpeeds(critical, up_to, worst, searched, agreed and every and passed and on_axis)
 
 
 def _limit(lines: Sequence[_Line], low: float) -> float:

@@ -66,7 +66,7 @@ def _reach(relaxation: "Relaxation") -> str:
 def _together(conflict: Sequence[str]) -> str:
     if len(conflict) == 1:
         return f"What cannot be had: {conflict[0]}, whatever else is given up."
-    return f"What cannot be had together: {', '.join(conflict)}; without any one of them there is a design."
+    return f"What cannot be had together: {', '.join(conflict)}, whatever else is given up."
 
 
 def shown_value(name: str, value: float) -> str:

@@ -68,4 +68,6 @@ def _parameters(result: "Uncertainty") -> Table:
 
 
 def _share(value: float | None, error: float | None) -> str:
-    return "not told by the samples" if value is None or error is None else f"{100 * value:.1f} ± {100 * error:.1g} %"
+    if value is None or error is None:
+        return "not told by the samples"
+    return f"{100 * value:.1f} ± {float(f'{100 * error:.1g}'):g} %"
