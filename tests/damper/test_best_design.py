@@ -1,7 +1,9 @@
 """The best design under all conditions: verified numbers, and plain loops over matrices written a second time."""
 
+from concurrent.futures import ProcessPoolExecutor
 from importlib import import_module
 from itertools import product
+from multiprocessing import get_context
 
 import numpy as np
 import pytest
@@ -292,3 +294,12 @@ def test_what_excludes_each_other():
     assert result.conflict == ("requirements.damping_ratio",)
     by_name = {one.name: one for one in result.relaxations}
     assert by_name["requirements.damping_ratio"].value == pytest.approx(0.0680112, rel=1e-3)  # what C_s alone reaches
+
+
+@pytest.mark.slow
+def test_searches_in_other_processes_give_the_same_answer():
+    bounds = {"C_s": (1e4, 1e7), "C_t": (3e4, 1.2e5), "K_2y": (4e5, 1.6e6), "K_2x": (4e5, 1.6e6)}
+    variables = {name: yd.Variable(min=low, max=high) for name, (low, high) in bounds.items()}
+    problem = yd.table1("trailer").replace(design=yd.Design(variables=variables))
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as two:
+        assert yd.optimise(problem, executor=two).to_dict() == yd.optimise(problem).to_dict()
