@@ -279,7 +279,7 @@ BROKEN = {
     "text for a section": ("bogie: table1\nspeed: 80\n", [1], "expected keys and values: kind, base"),
     "mapping for a number": (changed(6, "  M_b: {a: 1}"), [6], "bogie.M_b: {'a': '1'} is not a number"),
     "list for a number": (changed(6, "  M_b: [80, 90]"), [6], "bogie.M_b: ['80', '90'] is not a number"),
-    "list of no speeds": (changed(8, "speed: []"), [8], "speed: 0 speeds: give one to 1000, or a range"),
+    "list of no speeds": (changed(8, "speed: []"), [8], "speed: is an empty list: give the speeds, or a range"),
     "list with a mass": (changed(8, "speed: [80, 90 kg, 80]"), [8, 8], "speed.1: 90 kg is a mass, expected a speed"),
     "decimal comma": (changed(7, "  K_ds: 40,5 MN/m"), [7], "has a comma"),
     "wrong equations": (changed(2, "equations: printed"), [2], "printed is not one of: reciprocal, as-printed"),

@@ -38,7 +38,7 @@ MISSED = 1e6
 UNSTABLE = 100.0
 STEADY = RESERVE["decay_rate"]  # decay rate from which a design counts as stable there, so that it surely is [1/s]
 NEARLY_UNSTABLE = 1e-3  # margins below it are looked at closer [1/s], [-]
-WORSE = 2e-4  # a condition is added to those looked at if the margin is lower there by so much, relative
+WORSE = 2e-6  # a condition is added to those looked at if the margin is lower there by so much, relative
 
 
 @dataclass(frozen=True)
