@@ -264,6 +264,7 @@ def test_what_misses_least_is_stable_if_any_is(margins, monkeypatch):
     assert "misses least misses damping_ratio" in result.message
     assert result.stable
     assert not result.requirements[0].met
+    assert "requirements.damping_ratio" not in result.active  # it is missed, and not kept with nothing to spare
     conditions = spread_out(**LEAST_CREEP)
     reached = margins(problem, result.optimum, "damping_ratio", **conditions).min()
     scan = [margins(problem, {"C_s": C}, "damping_ratio", **conditions).min() for C in np.geomspace(1e4, C_SU, 200)]

@@ -262,7 +262,7 @@ def _active(
     ends += [(f"{name} max", 1 - b.position) for name, b in bounds.items()]
     if resistance is not None and curve is not None:
         ends.append(("rotational_resistance", 1 - resistance / curve.limit))
-    ends += [(f"requirements.{x.name}", _room(x)) for x in requirements]
+    ends += [(f"requirements.{x.name}", _room(x)) for x in requirements if x.met]
     return tuple(name for name, gap in ends if gap < ACTIVE)
 
 
