@@ -8,7 +8,7 @@ import pytest
 import yawdesign as yd
 from yawdesign.hunting.certificate import certify
 from yawdesign.hunting.many import critical_values
-from yawdesign.problem.conditions import Condition
+from yawdesign.problem.condition import Condition
 from yawdesign.study.answers import evaluate
 from yawdesign.study.request import Question
 from yawdesign.vehicle.vehicle import Model

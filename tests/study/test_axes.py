@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import yawdesign as yd
-from yawdesign.problem.conditions import Condition
+from yawdesign.problem.condition import Condition
 from yawdesign.study.axes import ROWS, applied, block, damping_ratio, read_axis, read_values
 from yawdesign.study.request import request
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import yawdesign as yd
-from yawdesign.problem.conditions import Condition
+from yawdesign.problem.condition import Condition
 from yawdesign.vehicle.catalogue import CATALOGUE
 from yawdesign.vehicle.elements import Link, Maxwell
 from yawdesign.vehicle.motions import COUPLED

@@ -7,9 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
 
-from .condition import CREEP as CREEP
-from .condition import TOLERANCE, Condition, Load
-from .condition import applied as applied
+from .condition import CREEP, TOLERANCE, Condition, Load
 from .problem import Problem
 from .running import SpeedRange
 

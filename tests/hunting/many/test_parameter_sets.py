@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from yawdesign.hunting.many.parameter_sets import ParameterSets
-from yawdesign.problem.conditions import Condition
+from yawdesign.problem.condition import Condition
 from yawdesign.vehicle.vehicle import Model
 
 VALUES = {"W": 2.0, "f_11": 1e7, "f_22": 2e7, "K_m": np.array([1.0, 2.0, 3.0]), "C_m": 0.0}
