@@ -7,7 +7,8 @@ import numpy as np
 from yawdesign.output.condition_texts import condition_text
 from yawdesign.output.critical_speed_tables import up_to_text
 from yawdesign.output.pictures import new_axes, under_conditions
-from yawdesign.output.sweep_style import COLOURS, STABLE, UNSTABLE, legend_below
+from yawdesign.output.style import BECOMES, STABLE, UNSTABLE
+from yawdesign.output.sweep_style import legend_below
 from yawdesign.output.tables import speed
 from yawdesign.problem import to_unit
 
@@ -38,7 +39,7 @@ def draw_critical_speeds(result: "CriticalSpeeds", ax: "Axes | None" = None) -> 
     ax.plot(to_unit(1.0, "km/h") * np.array(result.speeds), result.decay_rates, color="#1f4e9e", label=label)
     ax.axhline(0.0, color="black", linewidth=0.8)
     for each in result.critical_speeds:
-        ax.axvline(to_unit(each.v, "km/h"), color=COLOURS[each.becomes], linewidth=1.5)
+        ax.axvline(to_unit(each.v, "km/h"), color=BECOMES[each.becomes], linewidth=1.5)
     wanted = f"1.1 v = {speed(result.speed_wanted)}"
     ax.axvline(to_unit(result.speed_wanted, "km/h"), color="black", linestyle="dashed", label=wanted)
     ax.set(xlim=(low, high), xlabel="running speed $v$ [km/h]", ylabel="least decay rate of all modes [1/s]")

@@ -8,7 +8,8 @@ import numpy as np
 from yawdesign.damper.status import Status
 from yawdesign.output.condition_texts import condition_text
 from yawdesign.output.pictures import LINE, literal, new_axes, under_conditions
-from yawdesign.output.sweep_style import COLOURS, STABLE, UNSTABLE, legend_below
+from yawdesign.output.style import BECOMES, STABLE, UNSTABLE
+from yawdesign.output.sweep_style import legend_below
 from yawdesign.output.tables import critical_shown, margin
 from yawdesign.problem import PARAMETERS, ProblemError, format_quantity, to_unit
 
@@ -79,7 +80,7 @@ def _critical(result: "ForwardDesign", ax: "Axes") -> None:
         return
     ax.set_yticks([])
     for x in result.critical:
-        ax.axvline(x.C_s * DAMPING, color=COLOURS[x.becomes], linewidth=1.5)
+        ax.axvline(x.C_s * DAMPING, color=BECOMES[x.becomes], linewidth=1.5)
         text = f" {_damping(x.C_s)}\n at {x.omega / (2 * np.pi):.3g} Hz"
         ax.annotate(text, (x.C_s * DAMPING, 0.02), xycoords=ax.get_xaxis_transform(), fontsize="small")
 
@@ -88,7 +89,7 @@ def _draw_points(ax: "Axes", critical: "Sequence[Critical]", rows: Sequence[floa
     for kind in dict.fromkeys(x.becomes for x in critical):
         points = [(x.C_s * DAMPING, row) for x, row in zip(critical, rows, strict=True) if x.becomes == kind]
         label = f"critical value, above it {'still unstable' if kind == 'neither' else kind}"
-        ax.plot(*zip(*points, strict=True), "o", color=COLOURS[kind], label=label)
+        ax.plot(*zip(*points, strict=True), "o", color=BECOMES[kind], label=label)
 
 
 def draw_optimum(result: "Optimum", ax: "Axes | None" = None) -> "Axes":

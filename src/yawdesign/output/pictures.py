@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from unicodedata import category
 
 from yawdesign.hunting.chosen_condition import other_condition_in_words
+from yawdesign.output.style import HEIGHT, SETTINGS, WIDTH
 from yawdesign.problem import ProblemError
 from yawdesign.problem.stopping import held
 from yawdesign.problem.whole_files import write_whole
@@ -23,12 +24,12 @@ WRITTEN_BY = {".png": "agg", ".gif": "agg", ".pdf": "pdf", ".svg": "svg"}  # bac
 DOTS_PER_INCH = 150
 LINE = 80  # signs of a title that fit into one line
 # Whatever a user's matplotlibrc says: the texts hold Matplotlib's own mathematics, which LaTeX does not understand.
-TEXTS = {"text.usetex": False, "text.parse_math": True}
+TEXTS = {"text.usetex": False, "text.parse_math": True, **SETTINGS}
 
 
 @contextmanager
 def own_texts() -> Iterator[None]:
-    """Let Matplotlib set the texts that are made meanwhile."""
+    """Let Matplotlib set the texts that are made meanwhile, and draw in the style of this package."""
     import matplotlib
 
     with matplotlib.rc_context(TEXTS):  # type: ignore[arg-type]
@@ -86,4 +87,4 @@ def new_axes(ax: "Axes | None") -> "Axes":
         return ax
     from matplotlib.figure import Figure
 
-    return Figure(figsize=(7.0, 4.5), layout="constrained").add_subplot()
+    return Figure(figsize=(WIDTH, HEIGHT), layout="constrained").add_subplot()

@@ -6,14 +6,11 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.branches import curves
+from yawdesign.output.style import BECOMES, STABLE, UNKNOWN, UNSTABLE
 from yawdesign.output.sweep_style import (
-    COLOURS,
     DECADES,
     LABELS,
     ON_MAP,
-    STABLE,
-    UNKNOWN,
-    UNSTABLE,
     WIDE,
     axis_label,
     axis_values,
@@ -160,7 +157,7 @@ def _boundary(sweep: Sweep, ax: "Axes", across: str, x: Float, y: Float, turned:
         ends = (x if across == "C_s" else y)[[0, -1]]
         lines = curves(axis_values(axis), columns_of(sweep.boundary, to_unit(1.0, "kN·s/m")), *ends)
         draw_lines(ax, lines, swap=across == "C_s")
-        return [Line2D([], [], color=COLOURS[kind], label=ON_MAP[kind]) for kind, found in lines.items() if found]
+        return [Line2D([], [], color=BECOMES[kind], label=ON_MAP[kind]) for kind, found in lines.items() if found]
     inside = sweep.main if sweep.quantity in ("decay_rate", "damping_ratio") else _without_damper(sweep) - 0.5
     if min(inside.shape) < 2 or not (np.nanmin(inside) < 0 < np.nanmax(inside)):
         return []

@@ -10,14 +10,11 @@ from numpy.typing import NDArray
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.branches import curves, stable_areas
 from yawdesign.output.pictures import new_axes
+from yawdesign.output.style import BECOMES, STABLE, UNKNOWN, UNSTABLE
 from yawdesign.output.sweep_maps import draw_map
 from yawdesign.output.sweep_style import (
-    COLOURS,
     DECADES,
     LABELS,
-    STABLE,
-    UNKNOWN,
-    UNSTABLE,
     WIDE,
     axis_label,
     axis_values,
@@ -146,8 +143,8 @@ def _design(sweep: Sweep, ax: "Axes", x: Float) -> None:
     low, high, chosen = (sweep.columns[name] * factor for name in ("C_sl", "C_su", "C_s"))
     there = np.isfinite(chosen)
     ax.fill_between(x, low, high, where=there, color=STABLE, label="stable, and allowed in the curve", linewidth=0)
-    ax.plot(x, low, color=COLOURS["stable"], label=r"$C_\mathrm{sl}$, least stable")
-    ax.plot(x, high, color=COLOURS["unstable"], label=r"$C_\mathrm{su}$, limit of the curve")
+    ax.plot(x, low, color=BECOMES["stable"], label=r"$C_\mathrm{sl}$, least stable")
+    ax.plot(x, high, color=BECOMES["unstable"], label=r"$C_\mathrm{su}$, limit of the curve")
     ax.plot(x, chosen, color="black", linewidth=2.2, label=r"$C_\mathrm{s}$, golden section")
     ax.set_ylim(bottom=0)
     if not there.all():

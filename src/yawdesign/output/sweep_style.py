@@ -9,6 +9,7 @@ import numpy as np
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.branches import CriticalColumn
 from yawdesign.output.pictures import literal
+from yawdesign.output.style import BECOMES
 from yawdesign.problem import to_unit
 from yawdesign.study.axes import ROWS, Axis
 from yawdesign.study.result import Sweep
@@ -17,8 +18,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 SHOWN = {"N·s/m": "kN·s/m", "m/s": "km/h"}  # units in which people see values
-STABLE, UNSTABLE, UNKNOWN = "#cfe8cf", "#f4d3cf", "#d9d9d9"
-COLOURS = {"stable": "#1b6e3a", "unstable": "#b2182b", "neither": "#7f7f7f"}
 MEANING = {
     "stable": "becomes stable above",
     "unstable": "becomes unstable above",
@@ -110,6 +109,6 @@ def draw_lines(ax: "Axes", lines: dict[str, list[Any]], swap: bool = False, labe
     for kind, pieces in lines.items():
         if pieces:
             points = [[(y, x) for x, y in piece] for piece in pieces] if swap else pieces
-            style = {"linestyles": "dashed", "linewidths": 1.0} if kind == "neither" else {"linewidths": 1.8}
+            look = {"linestyles": "dashed", "linewidths": 1.0} if kind == "neither" else {"linewidths": 1.8}
             text = MEANING[kind] if label else None
-            ax.add_collection(LineCollection(points, colors=COLOURS[kind], label=text, capstyle="round", **style))
+            ax.add_collection(LineCollection(points, colors=BECOMES[kind], label=text, capstyle="round", **look))

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from yawdesign.output.pictures import new_axes, under_conditions
-from yawdesign.output.sweep_style import STABLE, UNSTABLE
+from yawdesign.output.style import STABLE, UNSTABLE
 from yawdesign.problem import PARAMETERS, ProblemError, to_unit
 from yawdesign.problem.condition import CREEP_FACTOR
 from yawdesign.problem.running import SPEED
