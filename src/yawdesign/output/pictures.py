@@ -63,10 +63,14 @@ def quantity(name: str, value: float, digits: int = 4) -> str:
 
 
 def put_title(ax: "Axes", title: str, condition: Mapping[str, Any] | None = None) -> None:
-    """Set a title above the left end of some axes, with the condition of a result below, in lines that fit."""
+    """Set a title above the left end of some axes, with the condition of a result below, in lines that fit.
+
+    No line ends within a number, or between it and its unit.
+    """
     whole = title if condition is None else with_condition(title, condition)
     parted = re.sub(rf"\S{{{LONGEST_WORD}}}(?=\S)", r"\g<0> ", whole)
-    ax.set_title(parted, loc="left", wrap=True)
+    together = re.sub(r"(?<=[\d=]) (?=[\w%])|(?<=\$) (?==)", "\u00a0", parted)
+    ax.set_title(together, loc="left", wrap=True)
 
 
 def with_condition(title: str, condition: Mapping[str, Any]) -> str:

@@ -88,7 +88,8 @@ def scale_axis(set_scale: Any, axis: Axis) -> None:
 
 def legend_below(ax: "Axes", **options: Any) -> None:
     """Explain a picture that leaves no room inside, in as many columns as fit below it."""
-    labels = [re.sub(r"[\\${}]|mathrm", "", label) for label in ax.get_legend_handles_labels()[1]]
+    handles = options.get("handles", ax.get_legend_handles_labels()[0])
+    labels = [re.sub(r"[\\${}]|mathrm", "", str(handle.get_label())) for handle in handles]
     longest = max(map(len, labels), default=0)
     columns = max(1, min(3, SIGNS_BELOW // (longest + SIGNS_OF_A_MARK)))
     from matplotlib.transforms import ScaledTranslation
