@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from numbers import Real
-from typing import Any, Literal, Self, get_args
+from typing import Any, Self, get_args
 
 from .arguments import named
 from .cases import Case, as_cases
 from .condition import CREEP_FACTOR, Conditions
-from .consistency import misfits, present, why_absent
+from .consistency import EQUATIONS, Equations, misfits, present, why_absent
 from .diagnostics import Mistakes, ProblemError
 from .distributions import Distribution, as_distributions
 from .distributions import written as written_distributions
+from .file_data import checked_data
 from .parameters import CAR_BODY, VERTICAL, Bogie, CarBody, bogie_keys, given_of
 from .quantities import Written, exact
 from .requirements import Requirement, as_requirements
@@ -22,9 +23,6 @@ from .running import CURVE, SPEED, Curve, SpeedRange, as_speeds
 from .table import RIGID, Parameter, as_choice, as_text, field_name, key_of, shown
 from .variables import Design, default_variables
 from .written_conditions import as_conditions
-
-Equations = Literal["reciprocal", "as-printed"]
-EQUATIONS: tuple[str, ...] = get_args(Equations)
 
 
 @named
@@ -74,6 +72,35 @@ class Problem:
     conditions: Conditions = field(default_factory=Conditions)
     requirements: tuple[Requirement, ...] = ()
     uncertainty: tuple[Distribution, ...] = ()
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """Return the problem that plain data describe.
+
+        Parameters
+        ----------
+        data : mapping
+            What `to_dict` returns, or what a problem file holds: numbers in SI or texts with a unit; a preset may be
+            named, and a file with a catalogue, which is looked for in the current folder.
+
+        Returns
+        -------
+        Problem
+
+        Raises
+        ------
+        ProblemError
+            With all mistakes.
+
+        Examples
+        --------
+        >>> Problem.from_dict({"bogie": {"base": "table1"}, "speed": "250 km/h"}).bogie.K_m
+        626480.0
+        """
+        checked = checked_data({key: value for key, value in data.items() if value is not None})
+        if checked.faults:
+            raise ProblemError(each.diagnostic for each in dict.fromkeys(checked.faults))
+        return cls(**checked.parts)
 
     def __post_init__(self) -> None:
         mistakes = Mistakes()
