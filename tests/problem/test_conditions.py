@@ -378,7 +378,7 @@ def test_faults_that_change_a_condition_change_something():
     conditions = {"lambda": [0.15, 0.4]}
     assert table1().replace(conditions=conditions, cases={"new profiles": {"lambda": 0.15}}).cases
     assert "10 is" not in error(conditions=conditions, cases={"a": {"lambda": "3000 %"}})
-    assert "cases.a.lambda: 3000 % of the value as designed is 12, outside" in error(
+    assert "cases.a.lambda: 3 000 % of the value as designed is 12, outside" in error(
         conditions=conditions, cases={"a": {"lambda": "3000 %"}}
     )
 

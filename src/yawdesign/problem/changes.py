@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from .cases import ONE_BOGIE
@@ -81,8 +81,8 @@ class ChangedData:
     """
 
     data: dict[str, Any]
-    labels: dict[Path, str]
-    mistakes: list[Diagnostic]
+    labels: dict[Path, str] = field(default_factory=dict)
+    mistakes: list[Diagnostic] = field(default_factory=list)
 
 
 def changed(data: Mapping[str, Any], values: Iterable[NewValue]) -> ChangedData:
@@ -92,9 +92,11 @@ def changed(data: Mapping[str, Any], values: Iterable[NewValue]) -> ChangedData:
     ``f_11`` or ``f_22`` that of ``creep`` too.
     """
     mistakes, places = Mistakes(), dict[Path, NewValue]()
-    for each in values:
+    for each in sorted(values, key=lambda each: each.name not in TOP):  # parts as a whole come first
         with mistakes.under(each.label):
             path = _place(each, data)
+            if len(path) == 1:
+                data = _with(data, path, each.value)
             if path in places:
                 raise ProblemError(f"{'.'.join(map(str, path))} is given twice")
             places[path] = each
@@ -106,6 +108,8 @@ def changed(data: Mapping[str, Any], values: Iterable[NewValue]) -> ChangedData:
         found = _with_variables(found)
     for path, each in places.items():
         with mistakes.under(each.label):
+            if len(path) == 1:
+                continue
             found = _with(found, path, each.value)
     return ChangedData(dict(found), {path: each.label for path, each in places.items()}, mistakes.found)
 
