@@ -33,7 +33,8 @@ LEAST = {"decay_rate": 1e-4, "damping_ratio": 1e-5}  # margin with which a desig
 MOST_POINTS = 1000
 FARTHEST = 2.0  # the last resistance, in the curve's limit
 INACTIVE = 1e-4  # share of the limit by which a design stays below it where it has no part in the optimum
-TURNS = ((1, 1e-3), (1, 1e-5))  # of NLP and refinement, for each point
+TURNS = ((2, 1e-3), (1, 1e-5))  # of NLP and refinement, for the last point
+NEAR_TURNS = ((1, 1e-4),)  # ... for the others, which begin close to the best design
 NEAR = 0.1  # share of the margin by which designs may fall behind a neighbour's, and are looked at nevertheless
 
 Known = tuple[tuple[Condition, ...], ...]
@@ -135,7 +136,7 @@ class _Front:
             return self._result((), status, status.message)
         first = _kept(*begin)
         space = Space(space.problem, known=first[0], anchors_given=({name: first[1][name] for name in space.names},))
-        best, x = best_design(space, self.seed, {}, _silent)
+        best, x = best_design(space, self.seed, {}, _silent, turns=TURNS)
         last = self._last(_kept(best, x))
         return self._finished(first, last, count)
 
@@ -282,7 +283,7 @@ def _solved(problem: Problem, known: Known, near: Sequence[Values], seed: int) -
     """Return the best design of a problem, whose search begins with known conditions and known designs."""
     given = tuple({name: values[name] for name in problem.design.variables} for values in near)
     beginning = Space(problem, known=known, anchors_given=given, near=NEAR)
-    space, x = best_design(beginning, seed, {}, _silent, turns=TURNS)
+    space, x = best_design(beginning, seed, {}, _silent, turns=NEAR_TURNS)
     return _kept(space, x)
 
 
