@@ -14,6 +14,7 @@ from .consistency import misfits, present, why_absent
 from .diagnostics import Mistakes, ProblemError
 from .distributions import Distribution, as_distributions
 from .distributions import written as written_distributions
+from .notebook_view import NotebookView
 from .parameters import CAR_BODY, VERTICAL, Bogie, CarBody, bogie_keys, given_of
 from .quantities import Written, exact
 from .requirements import Requirement, as_requirements
@@ -29,7 +30,7 @@ EQUATIONS: tuple[str, ...] = get_args(Equations)
 
 @named
 @dataclass(frozen=True, kw_only=True)
-class Problem:
+class Problem(NotebookView):
     """Everything that an answer depends on.
 
     Parameters
