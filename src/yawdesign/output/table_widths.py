@@ -17,9 +17,13 @@ from rich.text import Text
 from yawdesign.problem.characters import in_order
 
 KEPT = "\ufffe"  # stands for a blank at which no line ends; no text of a user holds it
-LEAST_OF_TEXT = 16  # room for a column of text, unless it needs less
+# What is tried, one after the other: blanks beside a cell (None: as the table has them), and the least room of a column
+# of text, unless it needs less.
+TRIED = ((None, 16), (0, 16), (0, 10))
 # Blanks inside of a number, and between a number and its unit.
-_INSIDE = re.compile(r"(?<= x) (?=\d)|(?<=\d) (?=\d{3}(?!\d)|[kMGmµ]?(?:N|m|rad|g|t|s|Hz|W)(?![A-Za-z])|km/h|1/s|%|°)")
+_INSIDE = re.compile(
+    r"(?<= x) (?=\d)|(?<=±) (?=\d)|(?<=\d) (?=±)|(?<=\d) (?=\d{3}(?!\d)|[kMGmµ]?(?:N|m|rad|g|t|s|Hz|W)(?![A-Za-z])|km/h|1/s|%|°)"
+)
 
 
 def fitted(shown: RenderableType, width: int) -> Group:
@@ -55,7 +59,7 @@ def _parts(shown: Any, width: int) -> Iterator[RenderableType]:
 def _kept(shown: Any, style: str = "") -> Text:
     """Return a text whose numbers stay whole, and that leaves the order of what stands around it."""
     text = shown.copy() if isinstance(shown, Text) else Text(str(shown), style)
-    text.plain = _INSIDE.sub(KEPT, in_order(text.plain))
+    text.plain = _INSIDE.sub(KEPT, in_order(as_read(text.plain)))
     text.overflow = "fold"
     return text
 
@@ -72,27 +76,28 @@ class _Column:
     whole: int
 
 
-def _column(justify: Any, header: Text, cells: Sequence[Text]) -> _Column:
+def _column(justify: Any, header: Text, cells: Sequence[Text], text: int) -> _Column:
+    """Return a column; `text` is the least room of one of text."""
     texts = [cell.plain for cell in cells]
     line = max((cell_len(line) for text in texts for line in text.split("\n")), default=0)
     word = max((cell_len(word) for text in (header.plain, *texts) for word in text.split()), default=1)
-    least = max(word, min(line, LEAST_OF_TEXT) if justify == "left" else 1)
+    least = max(word, min(line, text) if justify == "left" else 1)
     head = max(map(cell_len, header.plain.split("\n")))
     return _Column(justify, header, cells, least, max(least, line), max(least, line, head))
 
 
 def _table(table: Table, width: int) -> Table:
-    columns = [
-        _column(column.justify, _kept(column.header), [_kept(cell) for cell in column.cells])
-        for column in table.columns
-    ]
-    left, right = table.padding[3], table.padding[1]
-    room = width - len(columns) * (left + right + 1) - 1
-    if sum(column.least for column in columns) <= room:
-        return _with_widths(table, columns, _shared(columns, room))
+    _, right, _, left = table.padding
+    parts = [(x.justify, _kept(x.header), [_kept(cell) for cell in x.cells]) for x in table.columns]
+    for blanks, text in TRIED:
+        columns = [_column(*part, text) for part in parts]
+        beside = (left, right) if blanks is None else (blanks, blanks)
+        room = width - len(columns) * (sum(beside) + 1) - 1
+        if sum(column.least for column in columns) <= room:
+            return _with_widths(table, columns, _shared(columns, room), beside)
     if table.show_header:
         return _table(_stacked(table, columns), width)
-    return _with_widths(table, columns, _narrowed(columns, room))
+    return _with_widths(table, columns, _narrowed(columns, room), beside)
 
 
 def _shared(columns: Sequence[_Column], room: int) -> list[int]:
@@ -114,8 +119,9 @@ def _narrowed(columns: Sequence[_Column], room: int) -> list[int]:
     return widths
 
 
-def _with_widths(table: Table, columns: Sequence[_Column], widths: Sequence[int]) -> Table:
-    out = Table(show_header=table.show_header, box=table.box, padding=table.padding, pad_edge=table.pad_edge)
+def _with_widths(table: Table, columns: Sequence[_Column], widths: Sequence[int], beside: tuple[int, int]) -> Table:
+    left, right = beside
+    out = Table(show_header=table.show_header, box=table.box, padding=(0, right, 0, left))
     for column, width in zip(columns, widths, strict=True):
         out.add_column(column.header, justify=column.justify, width=width, overflow="fold")
     for k, row in enumerate(table.rows):

@@ -230,10 +230,11 @@ def _sensitivities(result: "ForwardDesign") -> list[Table]:
     if not result.sensitivity:
         return []
     table = titled("What moves C_sl most: change in % for 1 %", "parameter", "d ln C_sl / d ln p", "meaning")
+    table.columns[-1].justify = "left"
     largest = sorted(result.sensitivity.items(), key=lambda item: -abs(item[1]))[:SHOWN]
     for name, value in largest:
         meaning = PARAMETERS[name].meaning if name in PARAMETERS else "running speed"
-        table.add_row(name, f"{value:+.2f}", Text(meaning, justify="left"))
+        table.add_row(name, f"{value:+.2f}", meaning)
     return [table]
 
 
