@@ -18,6 +18,7 @@ from .consistency import EQUATIONS, Equations, misfits, present
 from .diagnostics import Mistakes, ProblemError
 from .distributions import Distribution, as_distributions
 from .file_data import checked_data
+from .notebook_view import NotebookView
 from .parameters import VERTICAL, Bogie, CarBody, given_of
 from .problem_text import problem_text
 from .quantities import Written, exact
@@ -32,7 +33,7 @@ from .written_problem import in_plain_numbers, written
 
 @named
 @dataclass(frozen=True, kw_only=True)
-class Problem:
+class Problem(NotebookView):
     """Everything that an answer depends on.
 
     Parameters
