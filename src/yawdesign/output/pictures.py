@@ -1,6 +1,7 @@
 """What every picture needs: axes to draw into, texts that Matplotlib sets itself, and the file it is written to."""
 
 import io
+import re
 import textwrap
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -11,7 +12,7 @@ from unicodedata import category
 
 from yawdesign.hunting.chosen_condition import other_condition_in_words
 from yawdesign.output.style import HEIGHT, SETTINGS, WIDTH
-from yawdesign.problem import ProblemError
+from yawdesign.problem import PARAMETERS, ProblemError, format_quantity
 from yawdesign.problem.stopping import held
 from yawdesign.problem.whole_files import write_whole
 
@@ -23,6 +24,7 @@ ANIMATIONS = (".gif", ".svg")
 WRITTEN_BY = {".png": "agg", ".gif": "agg", ".pdf": "pdf", ".svg": "svg"}  # backends of Matplotlib
 DOTS_PER_INCH = 150
 LINE = 80  # signs of a title that fit into one line
+LONGEST_WORD = 60  # in a title: longer ones are parted, so that lines can end
 # Whatever a user's matplotlibrc says: the texts hold Matplotlib's own mathematics, which LaTeX does not understand.
 TEXTS = {"text.usetex": False, "text.parse_math": True, **SETTINGS}
 
@@ -46,6 +48,25 @@ def literal(text: str) -> str:
     """
     shown = (sign if sign.isprintable() or category(sign) == "Zs" else "?" for sign in text)
     return "".join(shown).replace("$", r"\$")
+
+
+def quantity(name: str, value: float, digits: int = 4) -> str:
+    r"""Return a parameter and its value for a picture: its symbol as in equations, in the unit in which people see it.
+
+    Examples
+    --------
+    >>> print(quantity("C_s", 1e6))
+    $C_\mathrm{s}$ = 1 000 kN·s/m
+    """
+    row = PARAMETERS[name]
+    return f"${row.symbol}$ = {format_quantity(value, row.unit, digits)}"
+
+
+def put_title(ax: "Axes", title: str, condition: Mapping[str, Any] | None = None) -> None:
+    """Set a title above the left end of some axes, with the condition of a result below, in lines that fit."""
+    whole = title if condition is None else with_condition(title, condition)
+    parted = re.sub(rf"\S{{{LONGEST_WORD}}}(?=\S)", r"\g<0> ", whole)
+    ax.set_title(parted, loc="left", wrap=True)
 
 
 def with_condition(title: str, condition: Mapping[str, Any]) -> str:

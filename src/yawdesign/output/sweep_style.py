@@ -33,6 +33,7 @@ LABELS = {
     "critical_speed": "critical speed $v$",
     "stable": "",
 }
+BELOW = 36  # from axes down to a legend, past numbers and label [points]
 SIGNS_BELOW, SIGNS_OF_A_MARK = 112, 9  # how many signs of a legend fit side by side, how many a mark takes
 DECADES = 1000.0  # of a logarithmic scale, below its largest value
 WIDE = 30.0  # ratio of values from which on a logarithmic scale reads better
@@ -90,9 +91,11 @@ def legend_below(ax: "Axes", **options: Any) -> None:
     labels = [re.sub(r"[\\${}]|mathrm", "", label) for label in ax.get_legend_handles_labels()[1]]
     longest = max(map(len, labels), default=0)
     columns = max(1, min(3, SIGNS_BELOW // (longest + SIGNS_OF_A_MARK)))
-    ax.legend(
-        loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=columns, fontsize="small", frameon=False, **options
-    )
+    from matplotlib.transforms import ScaledTranslation
+
+    figure: Any = ax.get_figure(root=True)
+    below = ax.transAxes + ScaledTranslation(0, -BELOW / 72, figure.dpi_scale_trans)
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=below, ncols=columns, **options)
 
 
 def columns_of(sweep: Sweep, factor: float) -> list[CriticalColumn]:
