@@ -3,8 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.output.design_plots import DAMPING
-from yawdesign.output.pictures import literal, new_axes, under_conditions
-from yawdesign.output.sweep_style import legend_below
+from yawdesign.output.pictures import legend_below, literal, new_axes, under_conditions
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

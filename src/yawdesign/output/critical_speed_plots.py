@@ -6,9 +6,8 @@ import numpy as np
 
 from yawdesign.output.condition_texts import condition_text
 from yawdesign.output.critical_speed_tables import up_to_text
-from yawdesign.output.pictures import new_axes, under_conditions
+from yawdesign.output.pictures import legend_below, new_axes, under_conditions
 from yawdesign.output.style import BECOMES, STABLE, UNSTABLE
-from yawdesign.output.sweep_style import legend_below
 from yawdesign.output.tables import speed
 from yawdesign.problem import to_unit
 

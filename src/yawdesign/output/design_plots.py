@@ -7,9 +7,8 @@ import numpy as np
 
 from yawdesign.damper.status import Status
 from yawdesign.output.condition_texts import condition_text
-from yawdesign.output.pictures import LINE, literal, new_axes, under_conditions
+from yawdesign.output.pictures import LINE, legend_below, literal, new_axes, under_conditions
 from yawdesign.output.style import BECOMES, STABLE, UNSTABLE
-from yawdesign.output.sweep_style import legend_below
 from yawdesign.output.tables import critical_shown, margin
 from yawdesign.problem import PARAMETERS, ProblemError, format_quantity, to_unit
 

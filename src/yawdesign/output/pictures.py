@@ -1,10 +1,12 @@
 """What every picture needs: axes to draw into, texts that Matplotlib sets itself, and the file it is written to."""
 
 import io
+import re
 import textwrap
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from unicodedata import category
@@ -22,7 +24,10 @@ PICTURES = (".png", ".pdf", ".svg")
 ANIMATIONS = (".gif", ".svg")
 WRITTEN_BY = {".png": "agg", ".gif": "agg", ".pdf": "pdf", ".svg": "svg"}  # backends of Matplotlib
 DOTS_PER_INCH = 150
-LINE = 80  # signs of a title that fit into one line
+LINE = 74  # signs of a title that fit into one line of a picture of the usual width
+SIGN, SMALL_SIGN, MARGIN = 6.0, 5.1, 62.0  # width of a sign, of one of a legend, of what stands left of the axes [pt]
+HANDLE, MOST_COLUMNS = 42.0, 4  # width of a mark of a legend with the spaces beside it [pt]; columns side by side
+WIDEST = 200.0  # ratio up to which a logarithmic axis has numbers between the powers of ten
 # Whatever a user's matplotlibrc says: the texts hold Matplotlib's own mathematics, which LaTeX does not understand.
 TEXTS = {"text.usetex": False, "text.parse_math": True, **SETTINGS}
 
@@ -56,6 +61,106 @@ def with_condition(title: str, condition: Mapping[str, Any]) -> str:
 def under_conditions(title: str, conditions: str, line: int = LINE) -> str:
     """Return a title that says under which conditions it holds, in lines that fit into a picture."""
     return textwrap.fill(f"{title}, under {literal(conditions)}", line)
+
+
+def set_title(ax: "Axes", title: str, conditions: str = "", *, left: float = MARGIN) -> None:
+    """Set a title, and under which conditions it holds, in lines that fit into the picture.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes
+        Above which it stands.
+    title, conditions : str
+        What to tell; conditions as users write them.
+    left : float
+        How much room what stands left of the axes takes [pt].
+    """
+    text = f"{title}, under {literal(conditions)}" if conditions else title
+    ax.set_title(wrapped(text, max(20, int((_room(ax) - left) / SIGN))), loc="left", fontsize="medium")
+
+
+def wrapped(text: str, signs: int) -> str:
+    r"""Return a text in lines of at most so many signs, as they are seen: mathematics is set in fewer.
+
+    Examples
+    --------
+    >>> wrapped(r"yaw damping $C_\mathrm{s}$ [N s/m]", 14).splitlines()[0]
+    'yaw damping $C_\\mathrm{s}$'
+    """
+    lines = [""]
+    for word in text.split(" "):
+        longer = f"{lines[-1]} {word}" if lines[-1] else word
+        if lines[-1] and len(_seen(longer)) > signs:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return "\n".join(lines)
+
+
+def _seen(text: str) -> str:
+    """Return about what is seen of a text with mathematics."""
+    return re.sub(r"\\[a-z]+|[\\${}_]", "", text.replace(r"\mathrm", ""))
+
+
+def _room(ax: "Axes") -> float:
+    """Return the width that belongs to some axes and what stands beside them [pt]."""
+    grid = ax.get_subplotspec()
+    share = 1.0 if grid is None else len(grid.colspan) / grid.get_gridspec().ncols
+    return float(72.0 * ax.get_figure(root=True).get_figwidth() * share)  # type: ignore[union-attr]
+
+
+def legend_below(ax: "Axes", handles: "list[Any] | None" = None) -> None:
+    """Explain a picture below it, where it covers nothing, in as many columns as fit.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes
+        With its labels already set.
+    handles : list, optional
+        What is explained; what has a label, if not given.
+    """
+    from matplotlib.transforms import ScaledTranslation
+
+    handles = ax.get_legend_handles_labels()[0] if handles is None else handles
+    if not handles:
+        return
+    under = 26 + 13 * (1 + ax.get_xlabel().count("\n")) if ax.get_xlabel() else 20
+    figure = ax.get_figure(root=True)
+    place = ax.transAxes + ScaledTranslation(0, -under / 72, figure.dpi_scale_trans)  # type: ignore[union-attr]
+    ax.legend(
+        handles=handles,
+        loc="upper left",
+        bbox_to_anchor=(0.0, 0.0),
+        bbox_transform=place,
+        ncols=_columns([len(_seen(str(handle.get_label()))) for handle in handles], _room(ax) - MARGIN),
+        borderaxespad=0.0,
+        columnspacing=1.6,
+        handlelength=2.4,
+    )
+
+
+def _columns(signs: list[int], room: float) -> int:
+    """Return into how many columns the entries of a legend fit."""
+    for count in range(min(MOST_COLUMNS, len(signs)), 1, -1):
+        rows, longer = divmod(len(signs), count)
+        ends = [k * rows + min(k, longer) for k in range(count + 1)]  # the first columns are the longer ones
+        if sum(max(signs[a:b]) * SMALL_SIGN + HANDLE for a, b in pairwise(ends)) <= room:
+            return count
+    return 1
+
+
+def log_axis(ax: "Axes", *, upright: bool = False) -> None:
+    """Give an axis, its limits set, a logarithmic scale with numbers that people read: 10, 20, 50, 100, 1 000."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    (ax.set_yscale if upright else ax.set_xscale)("log")
+    axis = ax.yaxis if upright else ax.xaxis
+    low, high = sorted(axis.get_view_interval())
+    few = high < WIDEST * low
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.6g}".replace(",", " ")))
+    axis.set_minor_locator(LogLocator(subs=tuple(range(1, 10))))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def check_pictures(*paths: Path | None) -> None:
