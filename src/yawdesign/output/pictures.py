@@ -6,7 +6,7 @@ import textwrap
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
-from itertools import pairwise
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from unicodedata import category
@@ -63,7 +63,7 @@ def under_conditions(title: str, conditions: str, line: int = LINE) -> str:
     return textwrap.fill(f"{title}, under {literal(conditions)}", line)
 
 
-def set_title(ax: "Axes", title: str, conditions: str = "", *, left: float = MARGIN) -> None:
+def set_title(ax: "Axes", title: str, conditions: str = "", *, left: float = MARGIN, pad: float | None = None) -> None:
     """Set a title, and under which conditions it holds, in lines that fit into the picture.
 
     Parameters
@@ -74,9 +74,11 @@ def set_title(ax: "Axes", title: str, conditions: str = "", *, left: float = MAR
         What to tell; conditions as users write them.
     left : float
         How much room what stands left of the axes takes [pt].
+    pad : float, optional
+        How far above the axes it stands [pt].
     """
     text = f"{title}, under {literal(conditions)}" if conditions else title
-    ax.set_title(wrapped(text, max(20, int((_room(ax) - left) / SIGN))), loc="left", fontsize="medium")
+    ax.set_title(wrapped(text, max(20, int((_room(ax) - left) / SIGN))), loc="left", fontsize="medium", pad=pad)
 
 
 def wrapped(text: str, signs: int) -> str:
@@ -88,13 +90,21 @@ def wrapped(text: str, signs: int) -> str:
     'yaw damping $C_\\mathrm{s}$'
     """
     lines = [""]
-    for word in text.split(" "):
+    for word in chain.from_iterable(_parts(whole, signs) for whole in text.split(" ")):
         longer = f"{lines[-1]} {word}" if lines[-1] else word
         if lines[-1] and len(_seen(longer)) > signs:
             lines.append(word)
         else:
             lines[-1] = longer
     return "\n".join(lines)
+
+
+def _parts(word: str, signs: int) -> list[str]:
+    """Return a word that is too long for a line in parts; mathematics stays together."""
+    letters = re.findall(r"\\.|.", word, re.DOTALL)
+    if len(letters) <= signs or "$" in letters:
+        return [word]
+    return ["".join(letters[k : k + signs]) for k in range(0, len(letters), signs)]
 
 
 def _seen(text: str) -> str:

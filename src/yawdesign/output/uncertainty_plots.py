@@ -1,9 +1,13 @@
 """Pictures of the answer for uncertain parameters."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
-from yawdesign.output.pictures import new_axes, under_conditions
-from yawdesign.output.style import STABLE, UNSTABLE
+import numpy as np
+
+from yawdesign.hunting.arrays import Array
+from yawdesign.output.pictures import legend_below, new_axes, set_title, wrapped
+from yawdesign.output.style import BEFORE, CHOSEN, HALO, LESS, LIMIT, MORE, REST, STABLE, UNSTABLE, span
 from yawdesign.problem import PARAMETERS, ProblemError, to_unit
 from yawdesign.problem.condition import CREEP_FACTOR
 from yawdesign.problem.running import SPEED
@@ -14,13 +18,16 @@ if TYPE_CHECKING:
 
     from yawdesign.study.uncertainty import Uncertainty
 
-OF = ("tornado", "margin", "C_sl")
+OF = ("both", "tornado", "margin", "C_sl")
 UNITS = {"decay_rate": "1/s", "damping_ratio": "%", "C_sl": "kN·s/m"}
-GROWS, FALLS = "#1f4e9e", "#f2a48c"  # apart in grey, too
+NAMES = {"C_sl": r"minimum yaw damping for stability $C_\mathrm{sl}$"}
+BINS = 30
+HEIGHT = 6.0  # of a picture with both [inch]
+MARKED = {"5": (0, (1.5, 1.5)), "50": "solid", "95": (0, (1.5, 1.5))}  # percentiles, and how they are drawn
 
 
-def draw_uncertainty(result: "Uncertainty", ax: "Axes | None" = None, *, of: str = "tornado") -> "Axes":
-    """Draw what each uncertain parameter does to the margin, or how margin or C_sl is distributed.
+def draw_uncertainty(result: "Uncertainty", ax: "Axes | None" = None, *, of: str | None = None) -> "Axes":
+    """Draw how the margin or C_sl is distributed, and what each uncertain parameter does to the margin.
 
     Parameters
     ----------
@@ -28,18 +35,32 @@ def draw_uncertainty(result: "Uncertainty", ax: "Axes | None" = None, *, of: str
         Of `yawdesign.uncertainty`.
     ax : matplotlib.axes.Axes, optional
         Where to draw.
-    of : {"tornado", "margin", "C_sl"}
-        The change of the margin for one standard deviation of each parameter to either side, from its gradient; or
-        the cumulative distribution of the margin or of C_sl.
+    of : {"both", "tornado", "margin", "C_sl"}, optional
+        How often the margin or C_sl has which value; the change of the margin for one standard deviation of each
+        parameter to either side, from its gradient; or, on a new figure and if nothing is asked for, both of the
+        margin.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        With the title.
     """
+    of = of or ("both" if ax is None and _effects(result) else "tornado")
     as_choice(of, OF)
     ax = new_axes(ax)
+    if of == "both":
+        figure: Any = ax.get_figure(root=True)
+        figure.set_size_inches(figure.get_figwidth(), HEIGHT)
+        ax.remove()
+        ax, below = figure.subplots(2, 1)
+        _tornado(result, below)
+        legend_below(below)
+        of = "margin"
     (_tornado if of == "tornado" else _distribution)(result, ax, of)
     value, (low, high) = result.probability_unstable, result.interval
     text = f"between {low:.2g} and {high:.2g}" if value is None else f"{value:.4g} ± {(high - low) / 2:.1g}"
-    ax.set_title(
-        under_conditions(f"Probability of instability: {text}", result.held_under), loc="left", fontsize="medium"
-    )
+    set_title(ax, f"Probability of instability: {text}", result.held_under)
+    legend_below(ax)
     return ax
 
 
@@ -48,34 +69,66 @@ def _symbol(name: str) -> str:
     return f"${rows[name].symbol}$"
 
 
-def _tornado(result: "Uncertainty", ax: "Axes", of: str) -> None:
-    effects = {name: x.margin for name, x in result.effects.items() if x.margin is not None}
+def _effects(result: "Uncertainty") -> dict[str, float]:
+    """Return what each parameter does to the margin, the smallest effect first."""
+    known = {name: x.margin for name, x in result.effects.items() if x.margin is not None}
+    return dict(sorted(known.items(), key=lambda item: abs(item[1])))
+
+
+def _tornado(result: "Uncertainty", ax: "Axes", of: str = "tornado") -> None:
+    """Draw the change of the margin for one standard deviation of each parameter to either side."""
+    effects = _effects(result)
     if not effects:
         raise ProblemError("there is nothing to draw: the margin has no derivatives")
-    names = sorted(effects, key=lambda name: abs(effects[name]))
     unit = UNITS[result.objective]
     middle = to_unit(result.margin, unit)
-    for sign, colour, label in ((1, GROWS, "one standard deviation more"), (-1, FALLS, "one standard deviation less")):
-        widths = [sign * to_unit(effects[name], unit) for name in names]
-        ax.barh(range(len(names)), widths, left=middle, color=colour, label=label)
-    ax.axvline(middle, color="black", linewidth=1)
-    ax.set_yticks(range(len(names)), [_symbol(name) for name in names])
+    rows = range(len(effects))
+    for sign, colour, hatch, label in (
+        (1, MORE, None, "one standard deviation more"),
+        (-1, LESS, "xxx", "one standard deviation less"),
+    ):
+        widths = [sign * to_unit(effect, unit) for effect in effects.values()]
+        ax.barh(rows, widths, left=middle, color=colour, hatch=hatch, edgecolor=HALO, linewidth=0.5, label=label)
+    low, high = ax.get_xlim()
+    if low < 0:
+        span(ax, low, min(0.0, high), UNSTABLE, label="unstable")
+        ax.set_xlim(low, high)
+    ax.axvline(middle, label=f"as designed, {middle:.4g} {unit}", color=LIMIT, linewidth=1.2)
+    ax.set_yticks(rows, [_symbol(name) for name in effects])
     ax.set_xlabel(f"least {result.objective.replace('_', ' ')} [{unit}], by its gradient at the values as designed")
-    ax.legend(fontsize="small")
 
 
 def _distribution(result: "Uncertainty", ax: "Axes", of: str) -> None:
+    """Draw how often a quantity has which value, with some percentiles."""
     unit = UNITS[result.objective if of == "margin" else of]
-    known = [(to_unit(x, unit), level) for level, x in enumerate(result.quantiles[of]) if x is not None]
-    if not known:
+    quantiles = [(to_unit(x, unit), level) for level, x in enumerate(result.quantiles[of]) if x is not None]
+    if not quantiles:
         raise ProblemError("there is nothing to draw: no C_s is stable for any sample")
-    ax.plot(*zip(*known, strict=True), color=GROWS, linewidth=2)
-    low, high = ax.get_xlim()
+    values, levels = zip(*quantiles, strict=True)
+    ends = _ends(values)
+    shares = np.diff(np.interp(ends, values, levels))
+    ax.bar(ends[:-1], shares, np.diff(ends), align="edge", color=REST, edgecolor=BEFORE, linewidth=0.6, zorder=2)
+    low, high = float(ends[0]), float(ends[-1])
     if of == "margin":
-        ax.axvspan(min(low, 0.0), 0, color=UNSTABLE, linewidth=0, label="unstable")
-        ax.axvspan(0, max(high, 0.0), color=STABLE, linewidth=0, label="stable")
-        ax.legend(fontsize="small")
-        ax.set_xlabel(f"least {result.objective.replace('_', ' ')} [{unit}]")
-    else:
-        ax.set_xlabel(rf"least stable yaw damping $C_\mathrm{{sl}}$ [{unit}]")
-    ax.set(xlim=(low, high), ylim=(0, 100), ylabel=f"samples with less, of {result.percentiles_from} [%]")
+        span(ax, min(low, 0.0), 0.0, UNSTABLE, label="unstable")
+        span(ax, 0.0, max(high, 0.0), STABLE, label="stable")
+        low, high = min(low, 0.0), max(high, 0.0)
+    for level, dashes in MARKED.items():
+        value = result.percentiles[of].get(level)
+        if value is not None:
+            shown = to_unit(value, unit)
+            text = f"{shown:.4g} {unit}: {level} % of the samples have less"
+            ax.axvline(shown, color=CHOSEN, linestyle=dashes, linewidth=1.6, label=text, zorder=3)
+    name = NAMES.get(of, f"least {result.objective.replace('_', ' ')}")
+    none = 100 - max(levels)
+    beside = f"; stable for no $C_\\mathrm{{s}}$ in {none} %" if none else ""
+    ax.set_xlabel(wrapped(f"{name} [{unit}]{beside}", 66))
+    ax.set(xlim=(low, high), ylabel=f"share of {result.percentiles_from} samples\n[% of each bar]")
+
+
+def _ends(values: Sequence[float]) -> Array:
+    """Return the ends of bars of one width that hold all values."""
+    low, high = min(values), max(values)
+    if high <= low:
+        low, high = low - 0.5, high + 0.5
+    return np.linspace(low, high, BINS + 1)
