@@ -77,7 +77,8 @@ def _write_names(ax: "Axes", result: "Choice", scale: float) -> None:
 
     places = ax.transData.transform([(each.C_s * DAMPING, scale * each.margin) for each in result.candidates])
     written: list[BboxBase] = [Bbox.from_bounds(x - SIGN / 2, y - SIGN / 2, SIGN, SIGN) for x, y in places]
-    inside = ax.get_window_extent()
+    inside, (_, zero) = ax.get_window_extent(), ax.transData.transform((1.0, 0.0))
+    written.append(Bbox.from_extents(inside.x0, zero - 1, inside.x1, zero + 1))
     for each in result.candidates[:NAMED]:
         place = each.C_s * DAMPING, scale * each.margin
         for side in SIDES:

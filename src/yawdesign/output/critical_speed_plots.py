@@ -10,7 +10,6 @@ from yawdesign.output.critical_speed_tables import up_to_text
 from yawdesign.output.mark_labels import MarkLabel, draw_labels
 from yawdesign.output.pictures import legend_below, literal, new_axes, set_title
 from yawdesign.output.style import BECOMES, BECOMES_DASHES, CHOSEN_LINE, LIMIT, LIMIT_LINE, STABLE, UNSTABLE, span
-from yawdesign.output.tables import speed
 from yawdesign.problem import format_quantity, to_unit
 
 if TYPE_CHECKING:
@@ -38,13 +37,19 @@ def draw_critical_speeds(result: "CriticalSpeeds", ax: "Axes | None" = None) -> 
     ax.axhline(0.0, color=LIMIT, linewidth=0.8)
     ax.set(xlim=(low, high), xlabel="running speed $v$ [km/h]", ylabel="least decay rate of all modes [1/s]")
     marks = _marks(result, ax)
-    found = f"none up to {up_to_text(result)}" if result.stable_up_to is None else up_to_text(result)
+    found = f"none up to {up_to_text(result)}" if result.stable_up_to is None else _speed(result.stable_up_to)
+    if result.stable_up_to == 0:
+        found = f"unstable at {low:.4g} km/h already"
     title = f"Critical speed: {found}, $C_\\mathrm{{s}}$ = {format_quantity(result.C_s, 'kN·s/m', 4)}"
     set_title(ax, title, result.conditions)
     legend_below(ax)
     ax.get_figure(root=True).draw_without_rendering()  # type: ignore[union-attr]  # lays out, labels find their places
     set_title(ax, title, result.conditions, pad=draw_labels(ax, marks, 3.0) + 5.0)
     return ax
+
+
+def _speed(value: float) -> str:
+    return format_quantity(value, "km/h", 4)
 
 
 def _bands(result: "CriticalSpeeds", ax: "Axes", low: float, high: float) -> None:
@@ -67,11 +72,11 @@ def _marks(result: "CriticalSpeeds", ax: "Axes") -> list[MarkLabel]:
         x = to_unit(each.v, "km/h")
         ax.axvline(x, color=BECOMES[each.becomes], linestyle=BECOMES_DASHES[each.becomes], linewidth=1.5)
         if each.becomes != "neither":
-            labels.append(MarkLabel(x, f"{speed(each.v)}, becomes {each.becomes}", BECOMES[each.becomes]))
+            labels.append(MarkLabel(x, f"{_speed(each.v)}, becomes {each.becomes}", BECOMES[each.becomes]))
     asked = {round(each.wanted, 9): "required" for each in result.requirements if each.name.endswith("critical_speed")}
     asked.setdefault(round(result.speed_wanted, 9), "1.1 v for tests")
     for wanted, text in asked.items():
         x = to_unit(wanted, "km/h")
         ax.axvline(x, **LIMIT_LINE)
-        labels.append(MarkLabel(x, f"{text}: {speed(wanted)}", LIMIT))
+        labels.append(MarkLabel(x, f"{text}: {_speed(wanted)}", LIMIT))
     return labels

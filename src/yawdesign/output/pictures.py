@@ -13,7 +13,7 @@ from unicodedata import category
 
 from yawdesign.hunting.chosen_condition import other_condition_in_words
 from yawdesign.output.style import HEIGHT, SETTINGS, WIDTH
-from yawdesign.problem import ProblemError
+from yawdesign.problem import PARAMETERS, ProblemError, format_quantity
 from yawdesign.problem.stopping import held
 from yawdesign.problem.whole_files import write_whole
 
@@ -53,6 +53,23 @@ def literal(text: str) -> str:
     return "".join(shown).replace("$", r"\$")
 
 
+def quantity(name: str, value: float, digits: int = 4) -> str:
+    r"""Return a parameter and its value for a picture: its symbol as in equations, in the unit in which people see it.
+
+    Examples
+    --------
+    >>> print(quantity("C_s", 1e6))
+    $C_\mathrm{s}$ = 1 000 kN·s/m
+    """
+    row = PARAMETERS[name]
+    return f"${row.symbol}$ = {format_quantity(value, row.unit, digits)}"
+
+
+def put_title(ax: "Axes", title: str, condition: Mapping[str, Any] | None = None) -> None:
+    """Set a title above the left end of some axes, with the condition of a result below, in lines that fit."""
+    set_title(ax, title if condition is None else with_condition(title, condition))
+
+
 def with_condition(title: str, condition: Mapping[str, Any]) -> str:
     """Return a title with the condition of a result in a line below, unless its values are as written."""
     return "\n".join(filter(None, (title, literal(other_condition_in_words(condition)))))
@@ -89,6 +106,10 @@ def wrapped(text: str, signs: int) -> str:
     >>> wrapped(r"yaw damping $C_\mathrm{s}$ [N s/m]", 14).splitlines()[0]
     'yaw damping $C_\\mathrm{s}$'
     """
+    return "\n".join(line for whole in text.split("\n") for line in _lines(whole, signs))
+
+
+def _lines(text: str, signs: int) -> list[str]:
     lines = [""]
     for word in chain.from_iterable(_parts(whole, signs) for whole in text.split(" ")):
         longer = f"{lines[-1]} {word}" if lines[-1] else word
@@ -96,7 +117,7 @@ def wrapped(text: str, signs: int) -> str:
             lines.append(word)
         else:
             lines[-1] = longer
-    return "\n".join(lines)
+    return lines
 
 
 def _parts(word: str, signs: int) -> list[str]:
@@ -114,9 +135,11 @@ def _seen(text: str) -> str:
 
 def _room(ax: "Axes") -> float:
     """Return the width that belongs to some axes and what stands beside them [pt]."""
-    grid = ax.get_subplotspec()
-    share = 1.0 if grid is None else len(grid.colspan) / grid.get_gridspec().ncols
-    return float(72.0 * ax.get_figure(root=True).get_figwidth() * share)  # type: ignore[union-attr]
+    figure: Any = ax.get_figure(root=True)
+    place = ax.get_subplotspec()
+    width = ax.get_position().width if place is None else place.get_position(figure).width
+    pars = figure.subplotpars
+    return float(72.0 * figure.get_figwidth() * min(1.0, width / (pars.right - pars.left)))
 
 
 def legend_below(ax: "Axes", handles: "list[Any] | None" = None) -> None:

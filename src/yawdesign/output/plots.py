@@ -23,7 +23,7 @@ DRAWN_BY: dict[str, tuple[str, str]] = {
     "Simulation": ("yawdesign.output.response_plots", "simulation"),
     "SpectrumCheck": ("yawdesign.output.response_plots", "spectrum_check"),
     "FollowedModes": ("yawdesign.output.mode_plots", "mode_paths"),
-    "Modes": ("yawdesign.output.mode_plots", "mode_shape"),
+    "Modes": ("yawdesign.output.mode_shape_plots", "mode_shape"),
 }
 
 

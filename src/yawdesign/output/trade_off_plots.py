@@ -79,7 +79,12 @@ def _mark_points(result: "TradeOff", ax: "Axes", name: str, factor: float, size:
             marks.append((point, marker, text, BEFORE, size - 1))
     for point, marker, text, colour, large in marks:
         place = point["rotational_resistance"], point[name] * factor
-        look: dict[str, Any] = {"markerfacecolor": HALO, "markeredgewidth": 1.6, "markersize": large, "linestyle": "none"}
+        look: dict[str, Any] = {
+            "markerfacecolor": HALO,
+            "markeredgewidth": 1.6,
+            "markersize": large,
+            "linestyle": "none",
+        }
         ax.plot(*place, marker=marker, color=colour, label=text if labels else "_", zorder=4, **look)
 
 

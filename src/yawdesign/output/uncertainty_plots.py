@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from yawdesign.hunting.arrays import Array
+from yawdesign.output.mark_labels import MarkLabel, draw_labels
+from yawdesign.output.panels import divided
 from yawdesign.output.pictures import legend_below, new_axes, set_title, wrapped
 from yawdesign.output.style import BEFORE, CHOSEN, HALO, LESS, LIMIT, MORE, REST, STABLE, UNSTABLE, span
 from yawdesign.problem import PARAMETERS, ProblemError, to_unit
@@ -21,7 +23,7 @@ if TYPE_CHECKING:
 OF = ("both", "tornado", "margin", "C_sl")
 UNITS = {"decay_rate": "1/s", "damping_ratio": "%", "C_sl": "kN·s/m"}
 NAMES = {"C_sl": r"minimum yaw damping for stability $C_\mathrm{sl}$"}
-BINS = 30
+BINS, BAR = 30, 0.7  # bars of a distribution, height of a bar of a parameter
 HEIGHT = 6.0  # of a picture with both [inch]
 MARKED = {"5": (0, (1.5, 1.5)), "50": "solid", "95": (0, (1.5, 1.5))}  # percentiles, and how they are drawn
 
@@ -37,30 +39,31 @@ def draw_uncertainty(result: "Uncertainty", ax: "Axes | None" = None, *, of: str
         Where to draw.
     of : {"both", "tornado", "margin", "C_sl"}, optional
         How often the margin or C_sl has which value; the change of the margin for one standard deviation of each
-        parameter to either side, from its gradient; or, on a new figure and if nothing is asked for, both of the
-        margin.
+        parameter to either side, from its gradient; or, if nothing is asked for, both of the margin.
 
     Returns
     -------
     matplotlib.axes.Axes
         With the title.
     """
-    of = of or ("both" if ax is None and _effects(result) else "tornado")
+    of = of or ("both" if _effects(result) else "margin")
     as_choice(of, OF)
-    ax = new_axes(ax)
-    if of == "both":
+    given, ax = ax, new_axes(ax)
+    if of == "both" and given is None:
         figure: Any = ax.get_figure(root=True)
         figure.set_size_inches(figure.get_figwidth(), HEIGHT)
-        ax.remove()
-        ax, below = figure.subplots(2, 1)
+    if of == "both":
+        ax, below = divided(ax, (1.0, 1.0))
         _tornado(result, below)
         legend_below(below)
-        of = "margin"
-    (_tornado if of == "tornado" else _distribution)(result, ax, of)
+    marks = _tornado(result, ax) if of == "tornado" else _distribution(result, ax, "C_sl" if of == "C_sl" else "margin")
     value, (low, high) = result.probability_unstable, result.interval
     text = f"between {low:.2g} and {high:.2g}" if value is None else f"{value:.4g} ± {(high - low) / 2:.1g}"
-    set_title(ax, f"Probability of instability: {text}", result.held_under)
+    title = f"Probability of instability: {text}"
+    set_title(ax, title, result.held_under)
     legend_below(ax)
+    ax.get_figure(root=True).draw_without_rendering()  # type: ignore[union-attr]  # lays out, labels find their places
+    set_title(ax, title, result.held_under, pad=draw_labels(ax, marks, 3.0) + 5.0)
     return ax
 
 
@@ -75,7 +78,7 @@ def _effects(result: "Uncertainty") -> dict[str, float]:
     return dict(sorted(known.items(), key=lambda item: abs(item[1])))
 
 
-def _tornado(result: "Uncertainty", ax: "Axes", of: str = "tornado") -> None:
+def _tornado(result: "Uncertainty", ax: "Axes") -> list[MarkLabel]:
     """Draw the change of the margin for one standard deviation of each parameter to either side."""
     effects = _effects(result)
     if not effects:
@@ -88,18 +91,19 @@ def _tornado(result: "Uncertainty", ax: "Axes", of: str = "tornado") -> None:
         (-1, LESS, "xxx", "one standard deviation less"),
     ):
         widths = [sign * to_unit(effect, unit) for effect in effects.values()]
-        ax.barh(rows, widths, left=middle, color=colour, hatch=hatch, edgecolor=HALO, linewidth=0.5, label=label)
+        ax.barh(rows, widths, BAR, left=middle, color=colour, hatch=hatch, edgecolor=HALO, linewidth=0.5, label=label)
     low, high = ax.get_xlim()
     if low < 0:
         span(ax, low, min(0.0, high), UNSTABLE, label="unstable")
         ax.set_xlim(low, high)
-    ax.axvline(middle, label=f"as designed, {middle:.4g} {unit}", color=LIMIT, linewidth=1.2)
+    ax.axvline(middle, color=LIMIT, linewidth=1.2)
     ax.set_yticks(rows, [_symbol(name) for name in effects])
     ax.set_xlabel(f"least {result.objective.replace('_', ' ')} [{unit}], by its gradient at the values as designed")
+    return [MarkLabel(middle, f"as designed: {middle:.4g} {unit}", LIMIT)]
 
 
-def _distribution(result: "Uncertainty", ax: "Axes", of: str) -> None:
-    """Draw how often a quantity has which value, with some percentiles."""
+def _distribution(result: "Uncertainty", ax: "Axes", of: str) -> list[MarkLabel]:
+    """Draw how often a quantity has which value; return some percentiles to be written."""
     unit = UNITS[result.objective if of == "margin" else of]
     quantiles = [(to_unit(x, unit), level) for level, x in enumerate(result.quantiles[of]) if x is not None]
     if not quantiles:
@@ -113,17 +117,19 @@ def _distribution(result: "Uncertainty", ax: "Axes", of: str) -> None:
         span(ax, min(low, 0.0), 0.0, UNSTABLE, label="unstable")
         span(ax, 0.0, max(high, 0.0), STABLE, label="stable")
         low, high = min(low, 0.0), max(high, 0.0)
+    labels = []
     for level, dashes in MARKED.items():
         value = result.percentiles[of].get(level)
         if value is not None:
             shown = to_unit(value, unit)
-            text = f"{shown:.4g} {unit}: {level} % of the samples have less"
-            ax.axvline(shown, color=CHOSEN, linestyle=dashes, linewidth=1.6, label=text, zorder=3)
+            ax.axvline(shown, color=CHOSEN, linestyle=dashes, linewidth=1.6, zorder=3)
+            labels.append(MarkLabel(shown, f"{level} %: {shown:.3g} {unit}", CHOSEN))
     name = NAMES.get(of, f"least {result.objective.replace('_', ' ')}")
     none = 100 - max(levels)
     beside = f"; stable for no $C_\\mathrm{{s}}$ in {none} %" if none else ""
     ax.set_xlabel(wrapped(f"{name} [{unit}]{beside}", 66))
-    ax.set(xlim=(low, high), ylabel=f"share of {result.percentiles_from} samples\n[% of each bar]")
+    ax.set(xlim=(low, high), ylabel=f"share of {result.percentiles_from} samples\n[% in each bar]")
+    return labels
 
 
 def _ends(values: Sequence[float]) -> Array:
