@@ -11,7 +11,7 @@ import numpy as np
 
 from yawdesign.hunting.chosen_condition import other_condition_in_words
 from yawdesign.output.mode_shape_plots import draw_plan, move
-from yawdesign.output.pictures import ANIMATIONS, own_texts, put_title
+from yawdesign.output.pictures import ANIMATIONS, legend_below, own_texts, put_title
 from yawdesign.output.plan_view import (
     COLOURS,
     Body,
@@ -26,7 +26,6 @@ from yawdesign.output.plan_view import (
     subtitle,
 )
 from yawdesign.output.style import LIMIT, REST
-from yawdesign.output.sweep_style import legend_below
 from yawdesign.output.targets import Target, checked_targets
 from yawdesign.problem import PARAMETERS
 from yawdesign.problem.whole_files import write_whole
