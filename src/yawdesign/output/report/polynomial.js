@@ -2,7 +2,7 @@
 // powers of conicity, creep factor and 1/v. Numbers that need it have 30 digits: two doubles, [high, low].
 
 const SPLITTER = 134217729; // 2^27 + 1
-const NOISE = 1e-29; // of a value of a polynomial, relative to the sum of the magnitudes of its terms
+const NOISE = 2e-32; // of a value of a polynomial, relative to the sum of the magnitudes of its terms
 
 function exactSum(a, b) {
   const s = a + b;
