@@ -2,12 +2,12 @@
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from yawdesign.damper.candidates import Choice
 from yawdesign.damper.choose import choose
-from yawdesign.damper.forward import ForwardDesign, design
+from yawdesign.damper.forward import ForwardDesign
 from yawdesign.damper.optimise import optimise
 from yawdesign.damper.optimum import Optimum
 from yawdesign.damper.pareto_front import TradeOff
@@ -16,20 +16,19 @@ from yawdesign.damper.trade_off import trade_off
 from yawdesign.hunting.all_conditions import Judged
 from yawdesign.hunting.chosen_condition import AS_WRITTEN, WORST
 from yawdesign.hunting.critical_speed import CriticalSpeeds, critical_speed
-from yawdesign.hunting.many.worst_margin import under_conditions
 from yawdesign.hunting.many.measure import Measure
+from yawdesign.hunting.many.worst_margin import under_conditions
 from yawdesign.hunting.stability import stability
 from yawdesign.hunting.verdict import Stability
 from yawdesign.problem import Problem
 from yawdesign.problem.arguments import Progress
 from yawdesign.problem.conditions import condition_set
-from yawdesign.problem.table import RIGID
 from yawdesign.response.modes.followed_modes import FollowedModes, follow_modes
 from yawdesign.response.modes.named_modes import Modes, modes
 from yawdesign.response.run.simulate import Simulation, simulate
 from yawdesign.study import review_axes
 from yawdesign.study.result import Sweep
-from yawdesign.study.sweep import sweep
+from yawdesign.study.sweep import swept
 from yawdesign.study.uncertainty import Uncertainty, uncertainty
 
 POINTS = 12  # of the front
@@ -251,16 +250,20 @@ def _maps(problem: Problem, optimum: Optimum, told: _Told) -> dict[str, Any]:
     rows, columns = CHART if problem.car_body is None else (COARSE, 2 * COARSE)
     chart = {"v": review_axes.speeds(problem, rows), "C_s": review_axes.dampings(problem, marks, columns)}
     wear = {
-        "lambda_": review_axes.conicities(problem, cells),
+        "lambda": review_axes.conicities(problem, cells),
         "creep_factor": review_axes.creep_factors(problem, cells),
     }
     found = {
-        "chart": told("speed and yaw damping", 0.03, lambda part: sweep(problem, of="stable", progress=part, **chart)),
-        "wear": told("conicity and creep", 0.03, lambda part: sweep(problem, of=objective, progress=part, **wear)),
+        "chart": told(
+            "speed and yaw damping", 0.03, lambda part: swept(problem, "stable", chart.items(), progress=part)
+        ),
+        "wear": told("conicity and creep", 0.03, lambda part: swept(problem, objective, wear.items(), progress=part)),
     }
     if problem.bogie.kind == "power":
         axes = review_axes.mounts(problem, cells)
-        found["mounts"] = told("motor mounts", 0.03, lambda part: sweep(problem, of=objective, progress=part, **axes))
+        found["mounts"] = told(
+            "motor mounts", 0.03, lambda part: swept(problem, objective, axes.items(), progress=part)
+        )
     return found
 
 
@@ -272,7 +275,7 @@ def _beside_one_bogie(problem: Problem, told: _Told) -> dict[str, Any]:
     axis = review_axes.conicities(problem, BODY)
 
     def least(of: Problem) -> Callable[[Progress], Sweep]:
-        return lambda part: sweep(of, of="C_sl", lambda_=axis, progress=part)
+        return lambda part: swept(of, "C_sl", {"lambda": axis}.items(), progress=part)
 
     return {
         "with_body": told("with the car body", 0.02, least(problem)),

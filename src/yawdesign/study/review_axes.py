@@ -17,7 +17,7 @@ CONICITIES, CREEP_FACTORS = (0.02, 0.5), (0.4, 1.0)
 
 def speeds(problem: Problem, count: int) -> Float:
     """Return speeds around those that matter [m/s]."""
-    required = [x.value for x in problem.requirements if x.measure == "critical_speed"]
+    required = [x.wanted for x in problem.requirements if x.measure == "critical_speed"]
     highest = max(float(x) for x in (*problem.speeds, *required))
     return np.linspace(SPEEDS[0] * highest, min(SPEEDS[1] * highest, SPEED.hard[1]), count)
 
@@ -48,7 +48,9 @@ def mount(problem: Problem) -> tuple[float, float]:
 
 
 def _around(problem: Problem, name: str, usual: tuple[float, float]) -> tuple[float, float]:
-    given = [x for key, values in (*problem.conditions.values, *problem.conditions.ranges) if key == name for x in values]
+    given = [
+        x for key, values in (*problem.conditions.values, *problem.conditions.ranges) if key == name for x in values
+    ]
     own = [problem.parameters()[name]] if name in problem.parameters() else []
     found = [float(x) for x in (*given, *own, *usual)]
     return min(found), max(found)
@@ -58,9 +60,12 @@ def mounts(problem: Problem, count: int) -> dict[str, Float]:
     """Return frequencies [Hz] and damping ratios [-] of the motor suspension that its bounds hold."""
     p = {name: float(x) for name, x in problem.parameters().items()}
     K, C = _reach(problem, "K_m", MOUNTS), _reach(problem, "C_m", MOUNTS)
-    frequency = np.geomspace(*(sqrt(x / p["M_m"]) / (2 * pi) for x in K), count)
+    low, high = (sqrt(x / p["M_m"]) / (2 * pi) for x in K)
     ratios = [damping_ratio({**p, "C_m": c, "K_m": k}) for c, k in zip(C, reversed(K), strict=True)]
-    return {"f_m": frequency, "xi_m": np.geomspace(max(ratios[0], 0.005), min(ratios[1], 3.0), count)}
+    return {
+        "f_m": np.geomspace(low, high, count),
+        "xi_m": np.geomspace(max(ratios[0], 0.005), min(ratios[1], 3.0), count),
+    }
 
 
 def _reach(problem: Problem, name: str, beside: tuple[float, float]) -> tuple[float, float]:

@@ -23,7 +23,9 @@ def requirements(review: "DesignReview") -> Section | None:
     if not found:
         return None
     missed = [each.name for each in found if not each.met]
-    told = f"Missed: {', '.join(missed)}." if missed else f"All {len(found)} are met." if len(found) > 1 else "It is met."
+    told = (
+        f"Missed: {', '.join(missed)}." if missed else f"All {len(found)} are met." if len(found) > 1 else "It is met."
+    )
     return Section("requirements", "Requirements", paragraph(told) + tables(*requirement_tables(found)))
 
 
@@ -34,10 +36,15 @@ def conditions(review: "DesignReview") -> Section | None:
         return None
     shown = every[:SHOWN]
     names = [condition_text(row.condition) for row in shown]
-    axes = bars(names, [row.decay_rate for row in shown], "least decay rate [1/s]", [f"{row.decay_rate:.3g}" for row in shown])
+    axes = bars(
+        names, [row.decay_rate for row in shown], "least decay rate [1/s]", [f"{row.decay_rate:.3g}" for row in shown]
+    )
     unstable = sum(row.decay_rate < 0 for row in every)
-    told = f"The worst of {len(every)} conditions is {names[0]} with {shown[0].decay_rate:.4g} 1/s; unstable under {unstable}."
-    table = titled(f"The {len(shown)} worst of {len(every)} conditions", "condition", "decay rate [1/s]", "damping ratio [%]")
+    worst = f"{names[0]} with {shown[0].decay_rate:.4g} 1/s"
+    told = f"The worst of {len(every)} conditions is {worst}; unstable under {unstable}."
+    table = titled(
+        f"The {len(shown)} worst of {len(every)} conditions", "condition", "decay rate [1/s]", "damping ratio [%]"
+    )
     for name, row in zip(names, shown, strict=True):
         table.add_row(name, f"{row.decay_rate:.4g}", f"{100 * row.damping_ratio:.2f}")
     drawn = figure(axes, "conditions-picture", "Least decay rate under each condition", told)
@@ -48,15 +55,32 @@ def faults(review: "DesignReview") -> Section | None:
     """Return what each fault leaves, before and after."""
     if review.after is None or not review.after.cases:
         return None
-    table = titled("Least margins with each fault, under all conditions", "fault", "stable", "decay rate as written", "decay rate", "damping ratio")
+    table = titled(
+        "Least margins with each fault, under all conditions",
+        "fault",
+        "stable",
+        "decay rate as written",
+        "decay rate",
+        "damping ratio",
+    )
     before = {case.name: case for case in (review.before.cases if review.before else ())}
     for case in review.after.cases:
         was = before.get(case.name)
         stable = ("yes" if case.stable else "NO") if case.checked else "not verified"
         was_shown = margin(was.decay_rate, "decay_rate") if was else "not given"
-        table.add_row(case.name, stable, was_shown, margin(case.decay_rate, "decay_rate"), margin(case.damping_ratio, "damping_ratio"))
+        table.add_row(
+            case.name,
+            stable,
+            was_shown,
+            margin(case.decay_rate, "decay_rate"),
+            margin(case.damping_ratio, "damping_ratio"),
+        )
     worse = review.optimum.worsened
-    warning = paragraph(f"This design survives worse than the one as written: {', '.join(worse)}.", "warning") if worse else ""
+    warning = (
+        paragraph(f"This design survives worse than the one as written: {', '.join(worse)}.", "warning")
+        if worse
+        else ""
+    )
     return Section("faults", "Faults", warning + tables(table, *case_tables(review.after.cases)))
 
 
@@ -69,7 +93,10 @@ def chart(review: "DesignReview") -> Section | None:
     limit = review.forward.C_su
     if limit is not None and isfinite(limit) and limit > 0:
         axes.axvline(to_unit(limit, "kN·s/m"), color="black", linestyle="dashed", linewidth=1.2)
-    told = f"Stable and unstable combinations of running speed and yaw damping, {_under(review.chart)}. The diamond is this design; the dashed line is what the curve allows."
+    told = (
+        f"What is stable over running speed and yaw damping, {_under(review.chart)}. The diamond is this design; the "
+        "dashed line is what the curve allows."
+    )
     drawn = figure(axes, "chart-picture", "Stability over speed and yaw damping", told)
     return Section("chart", "Stability over speed and yaw damping", drawn)
 
@@ -83,9 +110,12 @@ def wear(review: "DesignReview") -> Section | None:
     if review.wear is None or review.design is None:
         return None
     own = review.design.parameters()["lambda"]
-    points = sorted({(row.condition.get("lambda", own), row.condition.get("creep_factor", 1.0)) for row in review.each_condition})
+    points = sorted(
+        {(row.condition.get("lambda", own), row.condition.get("creep_factor", 1.0)) for row in review.each_condition}
+    )
     axes = marked(plot(review.wear), points, chosen=False)
-    told = f"Margin of this design over conicity and creep, {_under(review.wear)}. Circles are the conditions of the problem."
+    what = "Margin of this design over conicity and creep"
+    told = f"{what}, {_under(review.wear)}. Circles are the conditions of the problem."
     return Section("wear", "Conicity and creep", figure(axes, "wear-picture", "Margin over conicity and creep", told))
 
 
@@ -96,5 +126,10 @@ def mounts(review: "DesignReview") -> Section | None:
     axes = marked(plot(review.mounts), [mount(review.problem)], chosen=False)
     marked(axes, [mount(review.design)])
     f_m, xi_m = mount(review.design)
-    told = f"Margin over the motor suspension, with the yaw damper of this design, {_under(review.mounts)}. The diamond is this design ({f_m:.3g} Hz, {100 * xi_m:.3g} %), the circle the motor suspension as written."
-    return Section("mounts", "Motor suspension", figure(axes, "mounts-picture", "Margin over the motor suspension", told))
+    told = (
+        f"Margin over the motor suspension, with the yaw damper of this design, {_under(review.mounts)}. The diamond "
+        f"is this design ({f_m:.3g} Hz, {100 * xi_m:.3g} %), the circle the motor suspension as written."
+    )
+    return Section(
+        "mounts", "Motor suspension", figure(axes, "mounts-picture", "Margin over the motor suspension", told)
+    )

@@ -1,13 +1,13 @@
 """Sections on the choice: stable damping, before and after, the front, the catalogue, what moves the answer."""
 
+import textwrap
 from collections.abc import Iterator
 from math import isinf
 from typing import TYPE_CHECKING, Any
 
-from yawdesign.output import style
 from yawdesign.output.choice_tables import choice_tables
 from yawdesign.output.plots import plot
-from yawdesign.output.report.drawings import bars
+from yawdesign.output.report.drawings import bars, marked
 from yawdesign.output.report.fragments import Section, figure, paragraph, tables
 from yawdesign.output.report.verdict import MARGINS
 from yawdesign.output.sweep_style import legend_below
@@ -20,32 +20,41 @@ if TYPE_CHECKING:
     from yawdesign.damper.optimum import Optimum
     from yawdesign.study.design_review import DesignReview
 
-SHOWN = 12  # sensitivities
+SHOWN, LINE = 12, 34  # sensitivities, signs of a name in a line
 
 
 def intervals(review: "DesignReview") -> Section:
     """Return where the yaw damping is stable, and where the design lies in that."""
     forward, chosen = review.forward, review.optimum.C_s
     axes = plot(forward)
-    if chosen is not None and chosen != forward.C_s:
+    if chosen is not None:
         text = f"{format_quantity(chosen, 'kN·s/m', 4)}, this design"
-        axes.axvline(to_unit(chosen, "kN·s/m"), color=style.CHOSEN, linewidth=2.5, linestyle="dashdot", label=text)
+        marked(axes, [(to_unit(chosen, "kN·s/m"), 0.5)], label=text, transform=axes.get_xaxis_transform())
         legend_below(axes)
     rows = [("stable for C_s in", _intervals(review)), ("C_sl, least stable", damping(forward.C_sl))]
     rows += [("C_su, curve's limit", damping(forward.C_su)), ("C_s, golden section between them", damping(forward.C_s))]
     rows += [("C_s of this design", damping(chosen))] if chosen is not None else []
-    told = f"Stable for C_s in {_intervals(review)}; C_sl = {damping(forward.C_sl)}, C_su = {damping(forward.C_su)}, this design {damping(chosen)}."
+    ends = f"C_sl = {damping(forward.C_sl)}, C_su = {damping(forward.C_su)}"
+    told = f"Stable for C_s in {_intervals(review)}; {ends}, this design {damping(chosen)}."
     return Section(
         "intervals",
         "Stable yaw damping",
-        figure(axes, "intervals-picture", "Stable intervals of the yaw damping", told, f"With the bogie of this design. Forward design: {forward.status}, {forward.message}.")
+        figure(
+            axes,
+            "intervals-picture",
+            "Stable intervals of the yaw damping",
+            told,
+            f"With the bogie of this design. Forward design: {forward.status}, {forward.message}.",
+        )
         + tables(facts("Yaw damping of the pair", rows)),
     )
 
 
 def _intervals(review: "DesignReview") -> str:
     found = review.forward.stable_intervals
-    return " and ".join(f"{damping(low)} ... {'any' if isinf(high) else damping(high)}" for low, high in found) or "none"
+    return (
+        " and ".join(f"{damping(low)} ... {'any' if isinf(high) else damping(high)}" for low, high in found) or "none"
+    )
 
 
 def before_and_after(review: "DesignReview") -> Section | None:
@@ -58,15 +67,26 @@ def before_and_after(review: "DesignReview") -> Section | None:
     for name, bound in optimum.bounds.items():
         row = PARAMETERS[name]
         values = (optimum.before.get(name), golden.get(name) if golden else None, bound.value)
-        table.add_row(f"{name}, {row.meaning}", *("not given" if x is None else format_quantity(x, row.unit) for x in values))
+        table.add_row(
+            f"{name}, {row.meaning}", *("not given" if x is None else format_quantity(x, row.unit) for x in values)
+        )
     between = margin(golden["margin"], optimum.objective) if golden else "not given"
-    table.add_row(MARGINS[optimum.objective], margin(optimum.margin_before, optimum.objective), between, margin(optimum.margin, optimum.objective))
+    table.add_row(
+        MARGINS[optimum.objective],
+        margin(optimum.margin_before, optimum.objective),
+        between,
+        margin(optimum.margin, optimum.objective),
+    )
     written = review.front.written if review.front else None
     if optimum.rotational_resistance is not None:
         resistances = (x["rotational_resistance"] if x else None for x in (written, golden))
         cells = ["not given" if x is None else f"{x:.5f}" for x in resistances]
         table.add_row("rotational resistance T/(4Qa)", *cells, f"{optimum.rotational_resistance:.5f}")
-    stable = [_yes(review.before.stable if review.before else None), _yes(golden["stable"] if golden else None), _yes(optimum.stable)]
+    stable = [
+        _yes(review.before.stable if review.before else None),
+        _yes(golden["stable"] if golden else None),
+        _yes(optimum.stable),
+    ]
     table.add_row("stable under every condition", *stable)
     worst = f"Limits that are reached: {', '.join(optimum.active) or 'none'}."
     return Section("change-of-design", "Before and after", _places(review.optimum) + tables(table) + paragraph(worst))
@@ -117,17 +137,29 @@ def sensitivity(review: "DesignReview") -> Section | None:
 def _sensitivities(review: "DesignReview") -> Iterator[str]:
     largest = sorted(review.forward.sensitivity.items(), key=lambda item: -abs(item[1]))[:SHOWN]
     if largest:
-        names = [f"{name}, {PARAMETERS[name].meaning if name in PARAMETERS else 'running speed'}" for name, _ in largest]
+        names = [_named(name) for name, _ in largest]
         values: list[float] = [value for _, value in largest]
-        axes = bars(names, values, "change of $C_\\mathrm{sl}$ for 1 % more of the parameter [%]", [f"{x:+.3g}" for x in values])
+        axes = bars(names, values, "change of $C_\\mathrm{sl}$ for 1 % more [%]", [f"{x:+.3g}" for x in values])
         told = f"1 % more of {largest[0][0]} changes C_sl by {values[0]:+.3g} %, of the others by less."
         yield figure(axes, "tornado", "Sensitivities of the least stable yaw damping", told)
     if review.uncertainty is not None:
         yield from _uncertain(review.uncertainty)
 
 
+def _named(name: str) -> str:
+    meaning = PARAMETERS[name].meaning if name in PARAMETERS else "running speed"
+    return textwrap.fill(f"{name}: {meaning}", LINE)
+
+
 def _uncertain(result: Any) -> Iterator[str]:
-    for of, title in (("tornado", "What each uncertain parameter does to the margin"), ("margin", "How the margin is distributed")):
-        told = f"{title}, for one standard deviation to either side." if of == "tornado" else f"{title}: share of samples with less."
+    for of, title in (
+        ("tornado", "What each uncertain parameter does to the margin"),
+        ("margin", "How the margin is distributed"),
+    ):
+        told = (
+            f"{title}, for one standard deviation to either side."
+            if of == "tornado"
+            else f"{title}: share of samples with less."
+        )
         yield figure(plot(result, of=of), f"uncertain-{of}", title, told)
     yield tables(uncertainty_tables(result))

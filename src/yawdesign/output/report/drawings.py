@@ -1,7 +1,7 @@
 """Pictures that stand in this page only: bars by name, marks on maps, two curves beside each other."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from yawdesign.output import style
 from yawdesign.output.pictures import literal, new_axes, own_texts
@@ -13,15 +13,22 @@ if TYPE_CHECKING:
 
     from yawdesign.study.result import Sweep
 
-BAR, AROUND = 0.28, 1.3  # heights [inch] of a bar, and of what stands around all of them
-ROOM = 0.14  # for the numbers beside the bars, in the width of the picture
+BAR, LINE, AROUND = (
+    0.16,
+    0.16,
+    1.0,
+)  # heights [inch] of a bar, a line of its name, and of what stands around all of them
+ROOM = 0.2  # for the numbers beside the bars, in the width of the picture
 
 
 def bars(names: Sequence[str], values: Sequence[float], label: str, texts: Sequence[str]) -> "Axes":
     """Draw values by name, the first on top: those below zero hatched, each with its number."""
     with own_texts():
         ax = new_axes(None)
-        ax.get_figure(root=True).set_size_inches(style.WIDTH, AROUND + BAR * len(names))  # type: ignore[union-attr]
+        lines = max(name.count("\n") for name in names) + 1
+        ax.get_figure(root=True).set_size_inches(style.WIDTH, AROUND + (BAR + LINE * lines) * len(names))  # type: ignore[union-attr]
+        ax.spines["left"].set_visible(False)
+        ax.tick_params(axis="y", length=0)
         for row, (value, text) in enumerate(zip(values, texts, strict=True)):
             look = style.area(style.UNSTABLE) if value < 0 else {"facecolor": style.CHOSEN}
             ax.barh(row, value, height=0.62, **look)
@@ -30,19 +37,23 @@ def bars(names: Sequence[str], values: Sequence[float], label: str, texts: Seque
                 text, (value, row), (side, 0), textcoords="offset points", ha=align, va="center", fontsize="small"
             )
         ax.axvline(0, color=style.LIMIT, linewidth=0.8)
-        ax.set_yticks(range(len(names)), [literal(name) for name in names])
+        ax.set_yticks(
+            range(len(names)), ["\n".join(map(literal, name.split("\n"))) for name in names], fontsize="small"
+        )
         ax.set(ylim=(len(names) - 0.4, -0.6), xlabel=label)
         low, high = min(0.0, *values), max(0.0, *values)
         ax.set_xlim(low - ROOM * (high - low) * (low < 0), high + ROOM * (high - low) * (high > 0))
     return ax
 
 
-def marked(ax: "Axes", points: Sequence[tuple[float, float]], *, chosen: bool = True) -> "Axes":
-    """Mark points of a picture: the design by a full diamond, others by hollow circles."""
+def marked(ax: "Axes", points: Sequence[tuple[float, float]], *, chosen: bool = True, **more: Any) -> "Axes":
+    """Mark points of a picture: the design by a full diamond, others by hollow circles; `more` goes to Matplotlib."""
+    look: dict[str, Any] = {"marker": "D", "markersize": 8, "markerfacecolor": style.CHOSEN, "markeredgecolor": "white"}
+    if not chosen:
+        look = {"marker": "o", "markersize": 7, "markerfacecolor": "white", "markeredgecolor": "black"}
     with own_texts():
-        sign, size, face = ("D", 8, style.CHOSEN) if chosen else ("o", 7, "white")
-        look = {"markeredgecolor": "white" if chosen else "black", "markerfacecolor": face}
-        ax.plot(*zip(*points, strict=True), sign, markersize=size, zorder=5, clip_on=False, **look)  # type: ignore[arg-type]
+        x, y = zip(*points, strict=True)
+        ax.plot(x, y, linestyle="none", zorder=5, clip_on=False, **look, **more)
     return ax
 
 

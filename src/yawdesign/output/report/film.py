@@ -41,7 +41,9 @@ def film(result: "Modes", mode: str | None, name: str, title: str, description: 
     for key in ("role", "width", "height"):
         root.attrib.pop(key, None)
     svg = markup.embedded(ElementTree.tostring(root, encoding="unicode"), name, title, description)
-    control = f'<input type="checkbox" id="{name}-pause" class="pause"><label for="{name}-pause">Pause the motion</label>'
+    control = (
+        f'<input type="checkbox" id="{name}-pause" class="pause"><label for="{name}-pause">Pause the motion</label>'
+    )
     return f"{control}\n<style>{''.join(rules)}</style>\n{svg}"
 
 
@@ -56,7 +58,8 @@ def _rules(name: str, part: "ElementTree.Element", *, dies_out: bool) -> str:
         place = f"translate({right:.2f}px,{-up:.2f}px) rotate({-math.degrees(turned):.3f}deg)"
         frames.append(f"{100 * k / FRAMES:.4g}%{{transform:{place}}}")
     move = f"animation:{name} {animation.PERIOD}s linear infinite"
-    return f"@media screen and (prefers-reduced-motion:no-preference){{.{name}{{{move}}}}}@keyframes {name}{{{''.join(frames)}}}"
+    moving = f"@media screen and (prefers-reduced-motion:no-preference){{.{name}{{{move}}}}}"
+    return f"{moving}@keyframes {name}{{{''.join(frames)}}}"
 
 
 def _numbers(text: str) -> Numbers:

@@ -65,6 +65,11 @@ def items(texts: Iterable[str]) -> str:
     return f"<ul>{''.join(f'<li>{markup.text(text)}</li>' for text in texts)}</ul>"
 
 
+def folded(summary: str, body: str) -> str:
+    """Return what is shown when it is asked for; on paper it is left out."""
+    return f"<details><summary>{markup.text(summary)}</summary>{body}</details>"
+
+
 def tables(*shown: "RenderableType") -> str:
     """Return tables and lines of a terminal as HTML; a table that is too wide for its page is scrolled alone."""
     html = "\n".join(markup.tables(each) for each in shown)

@@ -8,7 +8,6 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 from os import PathLike
 from pathlib import Path
-from typing import Any
 
 from yawdesign import __version__
 from yawdesign.output.report.page import page

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from yawdesign.damper.status import Status
 from yawdesign.output.condition_texts import condition_text
+from yawdesign.output.markup import text
 from yawdesign.output.relaxation_tables import relaxation_tables
 from yawdesign.output.report.fragments import Section, paragraph, subheading, tables
 from yawdesign.output.tables import damping, facts, margin, speed, titled
@@ -24,8 +25,10 @@ GOOD, BAD, DOUBTFUL = ("✔", "good"), ("✘", "bad"), ("?", "doubtful")
 def verdict(review: "DesignReview") -> Section:
     """Return the verdict in a line, what it holds under, and the numbers of the design."""
     optimum = review.optimum
-    sign, look = {Status.OPTIMAL: GOOD, Status.UNVERIFIED_OPTIMUM: DOUBTFUL}.get(optimum.status, BAD)  # type: ignore[call-overload]
-    line = f'<p class="verdict {look}"><span class="sign" aria-hidden="true">{sign}</span> {paragraph(_line(review))[3:-4]}</p>'
+    looks = {str(Status.OPTIMAL): GOOD, str(Status.UNVERIFIED_OPTIMUM): DOUBTFUL}
+    sign, look = looks.get(str(optimum.status), BAD)
+    sign = f'<span class="sign" aria-hidden="true">{sign}</span>'
+    line = f'<p class="verdict {look}">{sign} {text(_line(review))}</p>'
     under = paragraph(f"This holds for {optimum.searched}.")
     message = paragraph(f"{optimum.status}: {optimum.message}.")
     scope = review.forward.scope
@@ -38,7 +41,8 @@ def _line(review: "DesignReview") -> str:
     if optimum.margin is None:
         return f"No design: {optimum.message}."
     with_damper = f"with the damper {optimum.damper}, " if optimum.damper else ""
-    numbers = f"C_s = {damping(optimum.C_s)} leaves a {MARGINS[optimum.objective]} of {margin(optimum.margin, optimum.objective)}"
+    left = margin(optimum.margin, optimum.objective)
+    numbers = f"C_s = {damping(optimum.C_s)} leaves a {MARGINS[optimum.objective]} of {left}"
     at = f" at worst, with {condition_text(optimum.worst_condition)}"
     if optimum.status == Status.OPTIMAL:
         return f"Stable, and every limit is kept: {with_damper}{numbers}{at}."
@@ -83,7 +87,12 @@ def change(review: "DesignReview") -> Section | None:
 def inputs(review: "DesignReview") -> Section:
     """Return what the problem holds, and what of it differs from Table I."""
     problem = review.problem
-    parts = [tables(_running(problem), *_demands(problem)), subheading("Parameters"), tables(*_parameters(problem))]
+    parts = [
+        tables(_running(problem), *_demands(problem)),
+        subheading("Parameters"),
+        paragraph(_differences(problem)),
+        tables(*_parameters(problem)),
+    ]
     return Section("input", "Input", "\n".join(parts))
 
 
@@ -111,12 +120,17 @@ def _demands(problem: Problem) -> Iterator[Any]:
     if rows:
         yield facts(f"Conditions, {len(every.corners)} combinations of listed values and ends", rows)
     if problem.cases:
-        cases = ((case.name, ", ".join(f"{x.key}: {_written(x.written)}" for x in case.changes)) for case in problem.cases)
+        cases = (
+            (case.name, ", ".join(f"{x.key}: {_written(x.written)}" for x in case.changes)) for case in problem.cases
+        )
         yield facts("Faults to survive", cases)
     if problem.requirements:
-        wanted = ((x.name, speed(x.value) if x.measure == "critical_speed" else margin(x.value, x.measure)) for x in problem.requirements)
+        wanted = (
+            (x.name, speed(x.wanted) if x.measure == "critical_speed" else margin(x.wanted, x.measure))
+            for x in problem.requirements
+        )
         yield facts("Requirements, at least", wanted)
-    table = titled(f"Design variables, for the largest {MARGINS[problem.design.objective]}", "variable", "min", "max")
+    table = titled(f"Design variables; objective: {MARGINS[problem.design.objective]}", "variable", "min", "max")
     for name, bounds in problem.design.variables.items():
         table.add_row(name, *(format_quantity(x, PARAMETERS[name].unit) for x in (bounds.min, bounds.max)))
     yield table
@@ -135,6 +149,18 @@ def _written(value: Any) -> str:
     if isinstance(value, (list, tuple)):
         return " ... ".join(map(_written, value))
     return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _differences(problem: Problem) -> str:
+    """Return in a sentence what of the bogie is not as in Table I."""
+    printed, given = table1(kind=problem.bogie.kind).parameters(), problem.bogie.parameters()
+    changed = [name for name, x in given.items() if name in printed and x != printed[name]]
+    added = [name for name in given if name not in printed]
+    told = [
+        *(["changed: " + ", ".join(changed)] if changed else []),
+        *(["added: " + ", ".join(added)] if added else []),
+    ]
+    return f"Against Table I of the paper {'; '.join(told)}." if told else "The bogie is that of Table I of the paper."
 
 
 def _parameters(problem: Problem) -> Iterator[Any]:
