@@ -12,6 +12,9 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
 
+TALL = 0.8  # of its width: a picture that is higher gets more room on paper
+
+
 @dataclass(frozen=True)
 class Section:
     """A part of the page with a heading, to which the table of contents leads.
@@ -92,4 +95,5 @@ def figure(axes: "Axes", name: str, title: str, description: str, caption: str =
         Below it; the description if not given.
     """
     svg = markup.picture(axes, name, title, description)
-    return f"<figure>{svg}<figcaption>{markup.text(caption or description)}</figcaption></figure>"
+    width, height = axes.get_figure(root=True).get_size_inches()  # type: ignore[union-attr]
+    return f"<figure{of_class('tall' if height > TALL * width else '')}>{svg}<figcaption>{markup.text(caption or description)}</figcaption></figure>"
