@@ -18,7 +18,7 @@ from typing import Any
 
 BLOCK = re.compile(r"(?:^<!-- ([^\n]*) -->\n)?^```([\w{}-]*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 PRINTS = re.compile(r"(?:\n\n|\A)(?:It )?prints[^\n]*\s*\Z")
-INSTALLS = ("pip install ", "python3 -m venv ", "py -m venv ")  # left to continuous integration
+INSTALLS = ("pip install ", "python3 -m venv ", "source ")  # left to continuous integration
 RULES = re.compile(r"[\u2500-\u257f\s]+")  # lines of tables, and blanks
 
 
