@@ -36,6 +36,15 @@ TABLES_BY = {
 }
 
 ProblemFile = Annotated[str, typer.Argument(metavar="PROBLEM.YAML", help="The problem file.", show_default=False)]
+Changes = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="NAME=VALUE",
+        help="A value in place of the file's, again and again: C_s='800 kN s/m', speed='280 km/h', "
+        "conditions.load.tare.W='120 kN'.",
+    ),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the result as JSON, in SI units.")]
 Jobs = Annotated[int, typer.Option(min=1, help="Number of processes.")]
 Dask = Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")]
@@ -127,14 +136,21 @@ def progress_shown() -> "Iterator[Progress]":
         yield lambda text, part: bar.update(task, description=text, completed=part)
 
 
-def read_problem(path: str) -> "Problem":
-    """Return the problem of a file; warnings go to standard error."""
+def read_problem(path: str, changes: list[str] | None = None) -> "Problem":
+    """Return the problem of a file, with what --set says in it; warnings go to standard error."""
     from yawdesign.problem import ProblemError, read
+    from yawdesign.problem.changes import NewValue, written_value
+    from yawdesign.problem.diagnostics import Mistakes
 
-    problem, diagnostics = read(path)
-    if problem is None:
-        raise ProblemError(diagnostics)
-    for diagnostic in diagnostics:
+    mistakes, values = Mistakes(), list[NewValue]()
+    for text in changes or ():
+        with mistakes.under(""):
+            values.append(written_value(text))
+    problem, diagnostics = read(path, values)
+    found = [*mistakes.found, *diagnostics]
+    if problem is None or mistakes.found:
+        raise ProblemError(found)
+    for diagnostic in found:
         tell(diagnostic.render())
     return problem
 

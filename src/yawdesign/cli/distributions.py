@@ -6,6 +6,7 @@ import typer
 
 from yawdesign.cli.answering import (
     AsJson,
+    Changes,
     Dask,
     Force,
     Jobs,
@@ -20,6 +21,7 @@ from yawdesign.cli.answering import (
 
 def uncertainty(
     file: ProblemFile,
+    changes: Changes = None,
     samples: Annotated[int | None, typer.Option(help="How many; 1 048 576, fewer with many conditions.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the samples.")] = 0,
     jobs: Jobs = 1,
@@ -39,7 +41,7 @@ def uncertainty(
         from yawdesign.study.executors import workers
         from yawdesign.study.uncertainty import uncertainty as found
 
-        problem = read_problem(file)
+        problem = read_problem(file, changes)
         try:
             as_choice(of, OF)
         except ProblemError as error:
