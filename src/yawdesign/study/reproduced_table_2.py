@@ -144,7 +144,9 @@ def readings(vehicle: Vehicle) -> tuple[Reading, Reading]:
     moved, forced = _ratio(_moved_wheelset(system)), _ratio(_forced_wheelset(system))
     rail, by_force = _ratio(_under_rail(system)), _ratio(_under_rail_by_polynomials(system))
     return (
-        Reading("the front wheelset itself moved", moved, "a force on the wheelset", isclose(moved, forced, rel_tol=SAME)),
+        Reading(
+            "the front wheelset itself moved", moved, "a force on the wheelset", isclose(moved, forced, rel_tol=SAME)
+        ),
         Reading(
             "the rail moved under it, through gravity and conicity",
             rail,

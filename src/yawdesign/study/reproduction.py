@@ -67,9 +67,7 @@ def _cell(row: ReproducedRow) -> str:
     return f"printed {next(values)}, computed {next(values)} {row.unit} ({verdict})"
 
 
-def reproduction(
-    problem: Problem | None = None, progress: Progress = lambda text, part: None
-) -> Reproduction:
+def reproduction(problem: Problem | None = None, progress: Progress = lambda text, part: None) -> Reproduction:
     """Return the paper's numbers beside those computed now.
 
     Parameters
