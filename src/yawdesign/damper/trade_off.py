@@ -23,6 +23,7 @@ from yawdesign.hunting.scope import conditions_told
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress, as_executor
 from yawdesign.problem.condition import Condition
+from yawdesign.problem.progress import between, unseen
 from yawdesign.problem.stopping import held
 from yawdesign.problem.table import as_count, as_seed
 
@@ -125,12 +126,12 @@ class _Front:
             status = Status.NO_FEASIBLE_DESIGN
             return self._result((), status, status.told(excess(space.in_curve(values), space.names, curve)))
         gentle = LeastResistance(space.problem, level=LEAST[space.objective])
-        begin = gentle.gentlest_design(self.seed, self.progress)
+        begin = gentle.gentlest_design(self.seed, between(self.progress, 0.0, 0.2))
         if begin is None:
             status = Status.NO_FRONT if space.demands else Status.UNSTABLE
             return self._result((), status, status.message)
         first = begin[0].known, _numbers(*begin)
-        last = self._last(_solved(space.problem, *first, self.seed))
+        last = self._last(_solved(space.problem, *first, self.seed, progress=between(self.progress, 0.2, 0.3)))
         return self._finished(first, last, count)
 
     def _last(self, last: Solved) -> Solved:
@@ -143,7 +144,7 @@ class _Front:
         given = ({name: values[name] for name in space.names},)
         level = margin - GAIN * abs(margin)
         there = LeastResistance(space.problem, known=known, level=level, anchors_given=given)
-        found = there.gentlest_design(self.seed, self.progress)
+        found = there.gentlest_design(self.seed, between(self.progress, 0.3, 0.4))
         last = last if found is None else (found[0].known, _numbers(*found))
         self.ends_at = self._resistance(last)
         return last
@@ -166,7 +167,7 @@ class _Front:
         try:
             for k, (limit, one) in enumerate(self._each(limits, tasks)):
                 solved[limit] = one
-                self.progress(f"{k + 1} of {len(limits)} points of the front", (k + 1) / len(limits))
+                self.progress(f"{k + 1} of {len(limits)} points of the front", 0.4 + 0.6 * (k + 1) / len(limits))
             self._raise_beaten(solved)
         except (KeyboardInterrupt, BrokenExecutor) as error:
             with held():
@@ -181,8 +182,9 @@ class _Front:
     def _each(self, limits: Sequence[float], tasks: Sequence[_Task]) -> Iterator[tuple[float, Solved]]:
         """Yield the solutions in the order in which they come."""
         if self.executor is None:
-            for limit, task in zip(limits, tasks, strict=True):
-                yield limit, _solved(*task)
+            for k, (limit, task) in enumerate(zip(limits, tasks, strict=True)):
+                low, high = (0.4 + 0.6 * done / len(limits) for done in (k, k + 1))
+                yield limit, _solved(*task, progress=between(self.progress, low, high))
             return
         pairs = zip(limits, tasks, strict=True)
         futures = {self.executor.submit(_solved, *task): limit for limit, task in pairs}
@@ -246,15 +248,11 @@ class _Front:
         return described(self.space, {**values, "C_s": C_s})
 
 
-def _solved(problem: Problem, known: Known, near: Values, seed: int) -> Solved:
+def _solved(problem: Problem, known: Known, near: Values, seed: int, progress: Progress = unseen) -> Solved:
     """Return the best design of a problem, whose search begins with known conditions and a known design."""
     given = ({name: near[name] for name in problem.design.variables},)
-    space, x = best_design(Space(problem, known=known, anchors_given=given), seed, {}, _silent, turns=TURNS)
+    space, x = best_design(Space(problem, known=known, anchors_given=given), seed, {}, progress, turns=TURNS)
     return (space.conditions, *(one.conditions for one in space.demanded)), _numbers(space, x)
-
-
-def _silent(text: str, part: float) -> None:
-    """Show no progress: that of one point is not that of the front."""
 
 
 def _limited(problem: Problem, limit: float) -> Problem:

@@ -9,6 +9,7 @@ from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress, checked
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
+from yawdesign.problem.progress import between
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_choice, as_quantity, as_seed, as_several
@@ -201,8 +202,7 @@ def _simulation(asked: Chosen, plan: Plan, progress: Progress) -> Simulation:
     systems = [system_at(asked.problem, float(v)) for v in asked.speeds]
     _check_steps(systems, plan)
     for k, system in enumerate(systems):
-        progress(f"running at {3.6 * system.v:.4g} km/h", k / len(systems))
-        one, history = run(system, plan)
+        one, history = run(system, plan, between(progress, k / len(systems), (k + 1) / len(systems)))
         runs.append(one)
         histories.append(history)
     worst, system = max(zip(runs, systems, strict=True), key=lambda both: both[0].spectral_abscissa)
