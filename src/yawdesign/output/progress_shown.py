@@ -4,6 +4,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
+from importlib import import_module
 from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
@@ -83,21 +84,20 @@ def in_notebook() -> bool:
 @contextmanager
 def notebook_bar() -> Iterator[Progress]:
     """Give a bar in the cell that is running; it is gone when the work is done."""
-    from IPython.display import HTML, display
-
-    shown = display(HTML(_html(FIRST, 0.0)), display_id=True)
+    ipython: Any = import_module("IPython.display")
+    shown = ipython.display(ipython.HTML(_html(FIRST, 0.0)), display_id=True)
     last = monotonic()
 
     def told(text: str, part: float) -> None:
         nonlocal last
         if monotonic() >= last + UPDATES_APART:
-            shown.update(HTML(_html(text, part)))
+            shown.update(ipython.HTML(_html(text, part)))
             last = monotonic()
 
     try:
         yield rising(told)
     finally:
-        shown.update(HTML(""))
+        shown.update(ipython.HTML(""))
 
 
 def _html(text: str, part: float) -> str:
