@@ -53,7 +53,7 @@ def test_shares_grow_with_the_work(work, least, monkeypatch):
     calls = []
     work(lambda text, part: calls.append((text, part)))
     texts, shares = zip(*calls, strict=True)
-    assert shares[0] == 0.0
+    assert shares[0] < 0.5
     assert all(0.0 <= one <= other <= 1.0 + 1e-12 for one, other in pairwise(shares))
     assert len(set(shares)) >= least
     assert max(other - one for one, other in pairwise(shares)) < 0.5
@@ -68,7 +68,7 @@ def test_the_first_points_of_a_sweep_are_told_soon():
     """A grid of any size begins with few points: what comes first is not a chunk of many thousands."""
     calls = []
     yd.sweep(PLAIN, of="stable", lambda_="0.05:0.4:200", f_m="1:6:200", progress=lambda *call: calls.append(call))
-    assert [text for text, _ in calls[:3]] == [FIRST, "64 of 40000 points", "128 of 40000 points"]
+    assert [text for text, _ in calls[:2]] == ["64 of 40000 points", "128 of 40000 points"]
 
 
 def test_parts_of_a_whole():

@@ -93,7 +93,6 @@ def _without_changes(problem: Problem, seed: int, options: Mapping[str, Any]) ->
 
 def _optimum(problem: Problem, seed: int, options: Mapping[str, Any], progress: Progress, spread: Map = map) -> Optimum:
     """Return the best design, without what to change where there is none."""
-    progress("preparing the equations", 0.0)
     space = Space(problem)
     if "C_s" not in space.names and problem.bogie.C_s is None:
         raise ProblemError("bogie.C_s is missing: give its value, or make it a design variable")

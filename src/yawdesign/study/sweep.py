@@ -142,7 +142,6 @@ def answered(
     store = kept.store if kept else Store(asked.size)
 
     of_points = between(progress, 0.0, LINES_FROM if _has_boundary(asked) else 1.0)
-    of_points("preparing the equations", float(store.finished.mean()))
 
     def done() -> None:
         of_points(f"{store.finished.sum()} of {asked.size} points", float(store.finished.mean()))

@@ -128,6 +128,13 @@ class Uncertainty(Result):
     checked: bool
     seed: int
 
+    def _tables(self) -> dict[str, Mapping[str, Any]]:
+        quantiles = {"percent": list(range(101)), **self.quantiles}
+        return {**super()._tables(), "quantiles": quantiles}
+
+    def _units(self) -> Mapping[str, str]:
+        return {"margin": "1/s" if self.objective == "decay_rate" else "-"}
+
 
 def uncertainty(
     problem: Problem,
@@ -215,7 +222,6 @@ def _power(n: float) -> int:
 def _found(workers: Workers, problem: Problem, vehicle: UncertainVehicle, samples: int, seed: int) -> Uncertainty:
     objective, conditions = problem.design.objective, len(vehicle.question.conditions)
     slower = max(1.0, conditions * EARLY) * (SLOWER if problem.car_body else 1)
-    workers.done("preparing the equations", 0.0)
     stable = bool(evaluate(vehicle.question, vehicle.uncertain.parameters).columns["stable"][0])
     designed = as_designed(vehicle, objective)
     probability = probability_unstable(workers.within(0.0, 0.3), vehicle, samples, seed)

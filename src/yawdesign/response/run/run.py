@@ -8,6 +8,7 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.problem.arguments import Progress
+from yawdesign.problem.progress import unseen
 from yawdesign.response.modes.names import named_roots
 from yawdesign.response.run.frequency import states
 from yawdesign.response.run.ride_comfort import weighted_in_run
@@ -82,7 +83,7 @@ class Run:
     checked: bool
 
 
-def run(system: System, plan: Plan, progress: Progress) -> tuple[Run, History]:
+def run(system: System, plan: Plan, progress: Progress = unseen) -> tuple[Run, History]:
     """Run a vehicle over a track; `progress` is called with a text and the share that is done."""
     at = f"at {3.6 * system.v:.4g} km/h"
     trajectory = move(system, plan, lambda part: progress(f"running {at}", 0.7 * part))

@@ -4,6 +4,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from yawdesign.hunting.chosen_condition import AS_WRITTEN, Asked, Chosen, chosen
 from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem, ProblemError
@@ -86,6 +88,19 @@ class Simulation(Result):
     def to_dict(self) -> dict[str, Any]:
         """Return plain data in SI that JSON can hold, without the histories."""
         return {name: value for name, value in super().to_dict().items() if name != "histories"}
+
+    def _tables(self) -> dict[str, Mapping[str, Any]]:
+        columns: dict[str, Any] = {
+            "speed": np.concatenate([np.full(len(one.time), one.speed) for one in self.histories]),
+            "time": np.concatenate([one.time for one in self.histories]),
+            "distance": np.concatenate([one.distance for one in self.histories]),
+        }
+        names = self.histories[0].values
+        columns |= {name: np.concatenate([one.values[name] for one in self.histories]) for name in names}
+        return {"histories": columns, **{name: x for name, x in super()._tables().items() if name != "histories"}}
+
+    def _units(self) -> Mapping[str, str]:
+        return self.histories[0].units
 
     def __repr__(self) -> str:
         head = f"Simulation on {self.track} with C_s = {self.C_s:.9g} N s/m"

@@ -126,7 +126,7 @@ class Trajectory:
         return History(system.v, time, time * system.v, values, dict(zip(names, units, strict=True)))
 
 
-def move(system: System, plan: Plan, told: Callable[[float], Any]) -> Trajectory:
+def move(system: System, plan: Plan, told: Callable[[float], Any] = lambda part: None) -> Trajectory:
     """Return the motion of a vehicle over a track; `told` is called with the share that is done."""
     told(0.0)
     clock = planned_clock(system, plan)
