@@ -32,6 +32,7 @@ TABLES_BY = {
     "Simulation": ("yawdesign.output.response_tables", "simulation_tables"),
     "Modes": ("yawdesign.output.mode_tables", "modes_tables"),
     "FollowedModes": ("yawdesign.output.mode_tables", "followed_tables"),
+    "Reproduction": ("yawdesign.output.reproduction_tables", "reproduction_tables"),
     "Export": ("yawdesign.output.tables", "export_tables"),
 }
 

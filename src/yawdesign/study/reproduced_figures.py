@@ -225,4 +225,3 @@ def _sizes(bogie: PaperBogie, where: str, kmh: float) -> Iterator[ReproducedRow]
             check="the integral over the spectrum, and a run of 60 s",
             checked=computed is None or (run.checked and isclose(computed, run.rms[name], rel_tol=0.02)),
         )
-

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import isclose, pi, sqrt
+from typing import Any
 
 import numpy as np
 
@@ -95,7 +96,7 @@ def table_2(bogie: PaperBogie, drawn: Simulation) -> Iterator[ReproducedRow]:
         )
     for name in ACCELERATIONS:
         yield row(
-            *("Table II", f"relative deviation of the {name} accelerations that are printed [%]"),
+            *("Table II", f"relative deviation of the {name} accelerations that are printed, in %"),
             printed=RELATIVE_DEVIATION[name],
             computed=100 * (PROPOSED_RMS[name] / ADAMS_RMS[name] - 1),
             unit="-",
@@ -144,7 +145,9 @@ def readings(vehicle: Vehicle) -> tuple[Reading, Reading]:
     moved, forced = _ratio(_moved_wheelset(system)), _ratio(_forced_wheelset(system))
     rail, by_force = _ratio(_under_rail(system)), _ratio(_under_rail_by_polynomials(system))
     return (
-        Reading("the front wheelset itself moved", moved, "a force on the wheelset", isclose(moved, forced, rel_tol=SAME)),
+        Reading(
+            "the front wheelset itself moved", moved, "a force on the wheelset", isclose(moved, forced, rel_tol=SAME)
+        ),
         Reading(
             "the rail moved under it, through gravity and conicity",
             rail,
@@ -168,7 +171,7 @@ def _ratio(amplitudes: dict[str, complex]) -> float:
     return abs(amplitudes["y_b"]) / abs(amplitudes["phi_b"])
 
 
-def _by_name(names: tuple[str, ...], x: Complex) -> dict[str, complex]:
+def _by_name(names: tuple[str, ...], x: Any) -> dict[str, complex]:
     return {name: complex(value) for name, value in zip(names, x, strict=True)}
 
 

@@ -38,11 +38,11 @@ def table_1(bogie: PaperBogie) -> Iterator[ReproducedRow]:
     where = "Table I"
     for key in parameter_keys("power"):
         parameter = PARAMETERS[key]
-        printed = parse_quantity(f"{parameter.source} {parameter.unit}".replace(" -", ""))
+        printed = float(parse_quantity(f"{parameter.source} {parameter.unit}".replace(" -", "")))
         used = float(bogie.p[key])
         yield row(
             *(where, f"{key}, {parameter.meaning}"),
-            printed=float(printed),
+            printed=printed,
             computed=used,
             unit=parameter.si,
             tolerance=0.0,
@@ -154,7 +154,7 @@ def _gives_limit(bogie: PaperBogie, C_su: float | None) -> bool:
 def equations_13_14(bogie: PaperBogie) -> Iterator[ReproducedRow]:
     """Yield what eqs (13) and (14) give, with both loads that Q may be."""
     curve = bogie.given.curve
-    assert curve is not None  # noqa: S101 - of a paper's bogie
+    assert curve is not None
     axle, wheel = replace(curve, load="axle"), replace(curve, load="wheel")
     yield row(
         *("(13)", "T/(4 Q a) with the printed C_su, Q = W"),
