@@ -68,12 +68,12 @@ def drawing_of(drawn: Mapping[str, Any]) -> dict[str, tuple[str, Callable[[str],
 
     def run(name: str, track: str, responses: Sequence[str]) -> tuple[str, Callable[[str], "Axes"]]:
         one = drawn[name]
-        at = f"{format_quantity(one.speed, 'km/h')}, $C_\\mathrm{{s}}$ = {format_quantity(one.C_s, DAMPING)}"
+        at = f"{format_quantity(one.speed, 'km/h')}, C_s = {format_quantity(one.C_s, DAMPING)}"
         return f"Fig. {name.removeprefix('fig')}: {at}, {track}", lambda title: response_panels(one, responses, title)
 
     of_figure_3 = "Fig. 3: critical yaw damping over the motor suspension, equations as printed"
     return {
-        "fig2": run("fig2", r"$y$ = 1 m sin 6$t$ of the rail under the front wheelset", ACCELERATIONS),
+        "fig2": run("fig2", "y = sin 6t m of the rail under the front wheelset", ACCELERATIONS),
         "fig3": (of_figure_3, lambda title: curve_panels(drawn, title)),
         "fig4": run("fig4", IRREGULARITY, DISPLACEMENTS),
         "fig5": run("fig5", IRREGULARITY, DISPLACEMENTS),

@@ -21,7 +21,7 @@ class ReproducedRow:
     equations : str
         "as-printed" or "reciprocal"; empty where both give the same.
     printed, computed : float, str or None
-        In `unit`; None where the paper prints no number, or where there is no answer.
+        In SI units, see `unit`; None where the paper prints no number, or where there is no answer.
     unit : str
         SI unit.
     deviation : float or None
