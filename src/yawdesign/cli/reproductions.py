@@ -1,11 +1,11 @@
 """The command that reproduces the paper."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from yawdesign.cli.answering import AsJson, ended, mistakes_told, progress_shown, show
+from yawdesign.cli.answering import AsJson, Changes, ended, mistakes_told, progress_shown, show
 from yawdesign.output.streams import tell
 
 if TYPE_CHECKING:
@@ -16,12 +16,7 @@ def reproduce(
     to: Annotated[
         str | None, typer.Option(metavar="DIR", help="Folder for a page, pictures and tables; new or empty.")
     ] = None,
-    changes: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set", metavar="NAME=VALUE", help="A value in place of Table I's, again and again: M_b='7.3 t'."
-        ),
-    ] = None,
+    changes: Changes = None,
     force: Annotated[bool, typer.Option("--force", help="Replace what was written there before.")] = False,
     as_json: AsJson = False,
 ) -> None:
@@ -38,15 +33,16 @@ def reproduce(
     raise ended(checked=result.checked, feasible=result.agrees)
 
 
-def _problem(changes: Iterable[str]) -> "Problem":
+def _problem(changes: Sequence[str]) -> "Problem":
     """Return the paper's problem with other values."""
-    from yawdesign.problem import ProblemError, table1
-    from yawdesign.problem.document import compose, plain_data
+    from yawdesign.problem import table1
+    from yawdesign.problem.changes import written_value
+    from yawdesign.problem.diagnostics import Mistakes
 
-    values: dict[str, Any] = {}
+    mistakes, values = Mistakes(), dict[str, Any]()
     for text in changes:
-        name, sign, value = text.partition("=")
-        if not sign:
-            raise ProblemError(f"--set {text}: expected NAME=VALUE, such as M_b='7.3 t'")
-        values[name.strip()] = plain_data(compose(value, f"--set {text}").root)
-    return table1(equations="as-printed").replace(**values)
+        with mistakes.under(""):
+            value = written_value(text)
+            values[value.name] = value.value
+    mistakes.report()
+    return table1(equations="as-printed").replace(values)

@@ -9,7 +9,7 @@ from yawdesign.damper.forward import ForwardDesign, design
 from yawdesign.hunting.hurwitz import require_paper_bogie
 from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem, ProblemError
-from yawdesign.problem.problem import Equations
+from yawdesign.problem.consistency import Equations
 from yawdesign.study.printed_values import MOTOR_DAMPING_RATIO, MOTOR_FREQUENCY, PI
 from yawdesign.study.reproduced_row import PRINTED, RECIPROCAL
 from yawdesign.vehicle.vehicle import Model, Vehicle
