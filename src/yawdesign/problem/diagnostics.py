@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 from .characters import visible
 
@@ -63,6 +63,11 @@ class Diagnostic:
         place = ":".join(str(part) for part in parts if part not in ("", None))
         head = visible(": ".join(part for part in (place, self.severity, self.key, self.message) if part))
         return f"{head}\n{self._underlined()}" if self.line and self.source_line.strip() else head
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data that JSON can hold: its place, file included, and what it says."""
+        place = {"file": self.path or None, "line": self.line, "column": self.column, "length": self.length}
+        return {**place, "key": self.key, "message": self.message, "source_line": self.source_line}
 
     def _underlined(self) -> str:
         column = (self.column or 1) - 1

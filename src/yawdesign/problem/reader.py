@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from os import PathLike, fspath
-from typing import Any, Literal
+from typing import Any, BinaryIO, Literal
 
 from .catalogue_file import with_catalogue
 from .changes import NewValue, changed
@@ -93,12 +93,18 @@ def read(path: str | PathLike[str], changes: Iterable[NewValue] = ()) -> Report:
         return _read_workbook(name, changes)
     try:
         with open(name, "rb") as file:  # noqa: PTH123 - any name must do, also one that Path would change
-            return read_text(_decoded(file.read(MOST_BYTES + 1), name), name, changes)
-    except ProblemError as error:
-        return None, error.diagnostics
+            return read_stream(file, name, changes)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         return None, (Diagnostic(path=name, message=f"cannot be read: {reason}"),)
+
+
+def read_stream(stream: BinaryIO, name: str, changes: Iterable[NewValue] = ()) -> Report:
+    """Read a problem from an open file as `read` does; more than a problem file may hold is not waited for."""
+    try:
+        return read_text(_decoded(stream.read(MOST_BYTES + 1), name), name, changes)
+    except ProblemError as error:
+        return None, error.diagnostics
 
 
 def read_text(text: str, name: str = "<text>", changes: Iterable[NewValue] = ()) -> Report:
