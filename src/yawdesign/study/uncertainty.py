@@ -128,6 +128,13 @@ class Uncertainty(Result):
     checked: bool
     seed: int
 
+    def _tables(self) -> dict[str, Mapping[str, Any]]:
+        quantiles = {"percent": list(range(101)), **self.quantiles}
+        return {**super()._tables(), "quantiles": quantiles}
+
+    def _units(self) -> Mapping[str, str]:
+        return {"margin": "1/s" if self.objective == "decay_rate" else "-"}
+
 
 def uncertainty(
     problem: Problem,
