@@ -3,6 +3,7 @@
 import base64
 import struct
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ C_S = 2.3e5
 PROBLEMS = {
     "as printed": yd.table1(equations="as-printed"),
     "reciprocal": yd.table1(),
-    "trailer": yd.load("problems/trailer-bogie.yaml"),
+    "trailer": yd.load(Path(__file__).parents[2] / "problems" / "trailer-bogie.yaml"),
     "no lateral damper": yd.table1().replace(C_t=0),
 }
 
@@ -76,6 +77,6 @@ def test_state_matrices_are_those_of_the_motions(problem):
 
 
 def test_what_a_variable_moves_counts():
-    moved = yd.table1().replace(variables={"C_mphi": {"min": "1 kN s m", "max": "2 kN s m"}})
+    moved = yd.table1().replace(design=yd.Design(variables={"C_mphi": yd.Variable(min=1e3, max=2e3)}))
     assert [x["counts"] for x in page_equations(yd.table1())["motions"]] == [True, False]
     assert [x["counts"] for x in page_equations(moved)["motions"]] == [True, True]
