@@ -126,9 +126,7 @@ class Page:
 
     def resize(self, width, height):
         """Give the window another size in CSS pixels."""
-        self.send(
-            "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False
-        )
+        self.send("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
 
     def media(self, kind="", *, scheme="light"):
         """Show the page as on a kind of medium, ``print`` or ``screen``, in a light or dark scheme."""
