@@ -96,4 +96,5 @@ def figure(axes: "Axes", name: str, title: str, description: str, caption: str =
     """
     svg = markup.picture(axes, name, title, description)
     width, height = axes.get_figure(root=True).get_size_inches()  # type: ignore[union-attr]
-    return f"<figure{of_class('tall' if height > TALL * width else '')}>{svg}<figcaption>{markup.text(caption or description)}</figcaption></figure>"
+    kind = of_class("tall" if height > TALL * width else "")
+    return f"<figure{kind}>{svg}<figcaption>{markup.text(caption or description)}</figcaption></figure>"
