@@ -12,7 +12,7 @@ from rich.text import Text
 
 from yawdesign.output import style
 from yawdesign.output.pictures import own_texts
-from yawdesign.problem.characters import is_refused
+from yawdesign.problem.characters import in_order
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,7 +52,7 @@ def text(value: str) -> str:
 
 def plain_text(value: str) -> str:
     """Return a text for a place where there are no elements, such as a title or an attribute."""
-    return escape("".join("\ufffd" if is_refused(sign) and sign != "\n" else sign for sign in value))
+    return escape(in_order(value))
 
 
 def tables(shown: RenderableType) -> str:

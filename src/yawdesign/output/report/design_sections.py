@@ -6,11 +6,11 @@ from math import isinf
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.output.choice_tables import choice_tables
+from yawdesign.output.pictures import legend_below
 from yawdesign.output.plots import plot
 from yawdesign.output.report.drawings import bars, marked
 from yawdesign.output.report.fragments import Section, figure, paragraph, tables
 from yawdesign.output.report.verdict import MARGINS
-from yawdesign.output.sweep_style import legend_below
 from yawdesign.output.tables import damping, facts, margin, titled
 from yawdesign.output.trade_off_tables import trade_off_tables
 from yawdesign.output.uncertainty_tables import uncertainty_tables

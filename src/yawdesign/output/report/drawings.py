@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.output import style
-from yawdesign.output.pictures import literal, new_axes, own_texts
-from yawdesign.output.sweep_style import axis_label, axis_values, legend_below
+from yawdesign.output.pictures import legend_below, literal, new_axes, own_texts
+from yawdesign.output.sweep_style import axis_label, axis_values
 from yawdesign.problem import to_unit
 
 if TYPE_CHECKING:
