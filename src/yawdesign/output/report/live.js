@@ -77,8 +77,9 @@ function show() {
   }
   const point = pointNow();
   const answer = vehicle.at(point);
-  panel.classList.toggle("unstable", !answer.stable);
-  write("verdict", answer.stable ? "Stable." : "Unstable.");
+  panel.classList.toggle("unstable", !answer.stable || !answer.checked);
+  const verdict = answer.stable ? "Stable." : "Unstable.";
+  write("verdict", answer.checked ? verdict : "Not decided here: roots and polynomial do not agree.");
   write("decay-rate", `${digits(answer.decay_rate)} 1/s`);
   write("damping-ratio", `${digits(100 * answer.damping_ratio)} %`);
   write("abscissa", `${digits(answer.spectral_abscissa)} 1/s`);

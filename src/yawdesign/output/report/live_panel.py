@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from importlib.resources import files
 from typing import NamedTuple
 
-from yawdesign.exports.javascript import page_polynomials
+from yawdesign.exports.javascript import page_equations
 from yawdesign.output.markup import VARIABLES, plain_text, text
 from yawdesign.problem import PARAMETERS, Problem
 from yawdesign.problem.condition import CREEP_FACTOR
 from yawdesign.problem.running import SPEED
 
-SCRIPTS = ("polynomial.js", "live.js")
+SCRIPTS = ("arithmetic.js", "polynomial.js", "eigenvalues.js", "answers.js", "live.js")
 STYLE = "live.css"
 
 
@@ -58,7 +58,7 @@ PAGE = """\
 {rows}
 </div>
 <button type="button" id="live-reset">Back to the values of the problem</button>
-<p class="verdict"><output id="live-verdict" aria-live="polite"></output></p>
+<p class="answer"><output id="live-verdict" aria-live="polite"></output></p>
 <dl>
 <dt>Decay rate</dt><dd><output id="live-decay-rate"></output></dd>
 <dt>Damping ratio</dt><dd><output id="live-damping-ratio"></output></dd>
@@ -84,8 +84,10 @@ PAGE = """\
 """
 
 ABOUT = (
-    "Roots, margins and stable intervals are computed in this page from the characteristic polynomial of the vehicle, "
-    "under one condition: the values given here. All other parameters are as written in the problem."
+    "Computed in this page, for one condition: the values given here, all other parameters as written in the problem. "
+    "The verdict and the stable intervals come from the characteristic polynomial of every motion of the vehicle, the "
+    "roots from its state matrix; that each of them is a root of the polynomial, and that both count as many unstable "
+    "ones, is checked every time."
 )
 
 
@@ -112,7 +114,7 @@ def live_panel(problem: Problem, C_s: float) -> str:
         style=_style(),
         about=text(ABOUT),
         rows="\n".join(_rows(start)),
-        data=json.dumps({"start": start, **page_polynomials(problem)}, separators=(",", ":")),
+        data=json.dumps({"start": start, **page_equations(problem)}, separators=(",", ":")),
         script="\n".join(_read(name) for name in SCRIPTS),
     )
 
