@@ -26,19 +26,24 @@ class Section:
     title : str
         Its heading.
     body : str
-        HTML.
+        HTML: what stands below the heading, or the whole section.
     on_paper : bool
         Whether it is printed.
+    whole : bool
+        Whether the body has its own heading and is the section.
     """
 
     name: str
     title: str
     body: str
     on_paper: bool = True
+    whole: bool = False
 
     @property
     def html(self) -> str:
         """The section as an element."""
+        if self.whole:
+            return self.body
         opening = f'<section id="{self.name}" aria-labelledby="{self.name}-heading"{self.kind}>'
         return f'{opening}\n<h2 id="{self.name}-heading">{self.title}</h2>\n{self.body}\n</section>'
 
