@@ -12,6 +12,7 @@ from yawdesign.output.plots import plot
 from yawdesign.output.report.drawings import curves_over
 from yawdesign.output.report.film import film
 from yawdesign.output.report.fragments import Section, figure, folded, subheading, tables
+from yawdesign.output.report.live_panel import live_panel
 from yawdesign.output.response_tables import damper_tables, simulation_tables
 from yawdesign.output.tables import damping, facts, margin, speed, titled
 from yawdesign.problem import format_quantity
@@ -113,6 +114,14 @@ def _at_hunting(found: "DamperComponent") -> "Table":
     for v in VELOCITIES:
         each.append((f"force of each at {1e3 * v:g} mm/s, joints included", format_quantity(z.force(v) / 2, "kN", 3)))
     return facts("At the hunting frequency", each)
+
+
+def live(review: "DesignReview") -> Section | None:
+    """Return the sliders by which other values are looked at in the page itself."""
+    if review.design is None or review.design.bogie.C_s is None:
+        return None
+    panel = live_panel(review.design, review.design.bogie.C_s)
+    return Section("live", "Other values", panel, on_paper=False, whole=True)
 
 
 def car_body(review: "DesignReview") -> Section | None:
