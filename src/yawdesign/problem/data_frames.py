@@ -41,7 +41,7 @@ def data_frame(columns: Mapping[str, Any], units: Mapping[str, str] | None = Non
         pandas = import_module("pandas")
     except ImportError:
         raise ProblemError("pandas is not installed: pip install 'yawdesign[pandas]'") from None
-    frame: pandas.DataFrame = pandas.DataFrame(dict(columns))
+    frame = pandas.DataFrame(dict(columns))
     known = {name: UNITS[name.rpartition(".")[2]] for name in columns if name.rpartition(".")[2] in UNITS}
     frame.attrs["units"] = {name: unit for name, unit in {**known, **(units or {})}.items() if name in columns}
     return frame

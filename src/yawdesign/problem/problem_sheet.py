@@ -84,7 +84,9 @@ def _columns(document: SheetDocument, head: Row) -> dict[str, int]:
     if missing:
         where = document.place(next(iter(head.values())))
         heads = ", ".join(HEADS)
-        raise document.fail(where, f"the column {' and the column '.join(missing)} is missing: the first row has {heads}")
+        raise document.fail(
+            where, f"the column {' and the column '.join(missing)} is missing: the first row has {heads}"
+        )
     return found
 
 
@@ -232,4 +234,3 @@ def _damper(document: SheetDocument, row: Row, names: dict[int, str], units: dic
 
 def _ends(node: Node) -> tuple[int, int]:
     return node.start, node.end
-

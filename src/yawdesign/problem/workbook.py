@@ -86,7 +86,9 @@ class Workbook:
         try:
             content = _content_of(Path(name))
             # Twice: the values that were kept, and the formulas, of which some may have none.
-            self._books = [library.load_workbook(io.BytesIO(content), read_only=True, data_only=x) for x in (True, False)]
+            self._books = [
+                library.load_workbook(io.BytesIO(content), read_only=True, data_only=x) for x in (True, False)
+            ]
         except ProblemError as error:
             raise self.error(error.diagnostics[0].message) from None
         except (OSError, ValueError) as error:
