@@ -28,7 +28,7 @@ def uncertainty(
     jobs: Jobs = 1,
     dask: Dask = None,
     plot: Plot = None,
-    of: Annotated[str, typer.Option(help="What --plot draws: tornado (default), margin or C_sl.")] = "tornado",
+    of: Annotated[str, typer.Option(help="What --plot draws: both (default), tornado, margin or C_sl.")] = "both",
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:

@@ -16,12 +16,14 @@ from .faults import dotted, placed
 from .file_data import checked_data
 from .presets import without_removed
 from .problem import Problem
+from .problem_sheet import workbook_document
+from .workbook import is_workbook
 
 Report = tuple[Problem | None, tuple[Diagnostic, ...]]
 
 
 def load(path: str | PathLike[str]) -> Problem:
-    """Read a problem file.
+    """Read a problem file, or a workbook (.xlsx) with a sheet named problem.
 
     Parameters
     ----------
@@ -87,6 +89,8 @@ def read(path: str | PathLike[str], changes: Iterable[NewValue] = ()) -> Report:
         Errors and warnings in the order of the lines.
     """
     name = fspath(path)
+    if is_workbook(name):
+        return _read_workbook(name, changes)
     try:
         with open(name, "rb") as file:  # noqa: PTH123 - any name must do, also one that Path would change
             return read_stream(file, name, changes)
@@ -109,6 +113,18 @@ def read_text(text: str, name: str = "<text>", changes: Iterable[NewValue] = ())
         document = compose(text, name)
     except ProblemError as error:
         return None, _sorted(error.diagnostics)
+    return _read_document(document, changes)
+
+
+def _read_workbook(name: str, changes: Iterable[NewValue]) -> Report:
+    try:
+        document = workbook_document(name)
+    except ProblemError as error:
+        return None, _sorted(error.diagnostics)
+    return _read_document(document, changes)
+
+
+def _read_document(document: Document, changes: Iterable[NewValue]) -> Report:
     data = plain_data(document.root)
     if not isinstance(data, dict):
         empty = data is None
