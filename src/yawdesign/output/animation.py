@@ -6,6 +6,7 @@ from html import escape
 from pathlib import Path
 
 from yawdesign.hunting.chosen_condition import other_condition_in_words
+from yawdesign.output.film import Film
 from yawdesign.output.mode_plots import mode_shape
 from yawdesign.output.pictures import ANIMATIONS, own_texts
 from yawdesign.output.plan_view import (
@@ -46,8 +47,10 @@ SCRIPT = """(function () {
 })();"""
 
 
-def animate(result: Modes, to: str | Path, *, mode: str | None = None, replace: bool = False) -> Path:
-    """Write a mode in motion to a file.
+def animate(
+    result: Modes, to: str | Path | None = None, *, mode: str | None = None, replace: bool = False
+) -> Path | Film:
+    """Show a mode in motion in a notebook, or write it to a file.
 
     An oscillating mode is shown over one cycle, without its decay or growth; another one as it dies out.
 
@@ -55,9 +58,9 @@ def animate(result: Modes, to: str | Path, *, mode: str | None = None, replace: 
     ----------
     result : Modes
         What `yawdesign.modes` returns.
-    to : str or Path
-        The file; its ending, .gif or .svg, says what is written. The SVG needs nothing but itself, and a viewer that
-        runs scripts.
+    to : str or Path, optional
+        The file; without one a notebook shows what is returned. Its ending, .gif or .svg, says what is written. The SVG
+        needs nothing but itself, and a viewer that runs scripts.
     mode : str, optional
         Name of the mode; the least damped one if not given.
     replace : bool
@@ -65,8 +68,8 @@ def animate(result: Modes, to: str | Path, *, mode: str | None = None, replace: 
 
     Returns
     -------
-    Path
-        The file.
+    Path or Film
+        The file, or what a notebook shows; ``to_jshtml()`` of it is its HTML.
 
     Raises
     ------
@@ -75,6 +78,8 @@ def animate(result: Modes, to: str | Path, *, mode: str | None = None, replace: 
     OSError
         If it cannot be written.
     """
+    if to is None:
+        return Film(svg(result, mode).decode())
     path = Path(to)
     checked_targets([Target("", str(path), ANIMATIONS, replace)], [])
     find_mode(result, mode)
