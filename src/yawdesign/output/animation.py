@@ -2,11 +2,11 @@
 
 import io
 import math
-from html import escape
 from pathlib import Path
 
 from yawdesign.hunting.chosen_condition import other_condition_in_words
 from yawdesign.output.film import Film
+from yawdesign.output.markup import plain_text
 from yawdesign.output.mode_plots import mode_shape
 from yawdesign.output.pictures import ANIMATIONS, own_texts
 from yawdesign.output.plan_view import (
@@ -126,7 +126,7 @@ def _svg(result: Modes, mode: NamedMode) -> str:
     rails = [_line(-length, length, side * SCALE * p["b"]) for side in (1, -1)]
     at_rest = [_group(body, f'fill="none" stroke="{REST}"') for body in shown]
     middle = (left + right) / 2
-    head = [*filter(None, (caption(mode), subtitle(result), escape(other_condition_in_words(result.condition))))]
+    head = [*filter(None, (caption(mode), subtitle(result), plain_text(other_condition_in_words(result.condition))))]
     texts = [
         *(_text(middle, -top - 4 - LINE * k, line) for k, line in enumerate(reversed(head))),
         *(_text(SCALE * x, -SCALE * y, text) for x, y, text in labels(p)),

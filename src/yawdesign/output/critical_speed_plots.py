@@ -6,7 +6,7 @@ import numpy as np
 
 from yawdesign.output.condition_texts import condition_text
 from yawdesign.output.critical_speed_tables import up_to_text
-from yawdesign.output.pictures import new_axes, under_conditions
+from yawdesign.output.pictures import literal, new_axes, under_conditions
 from yawdesign.output.style import BECOMES, STABLE, UNSTABLE
 from yawdesign.output.sweep_style import legend_below
 from yawdesign.output.tables import speed
@@ -35,7 +35,7 @@ def draw_critical_speeds(result: "CriticalSpeeds", ax: "Axes | None" = None) -> 
     if end < high:
         ax.axvspan(end, high, color=UNSTABLE, linewidth=0, label="from the first unstable speed on")
     condition = {name: value for name, value in result.worst_condition.items() if name != "speed"}
-    label = f"decay rate, {condition_text(condition) or 'values as given'}"
+    label = f"decay rate, {literal(condition_text(condition)) or 'values as given'}"
     ax.plot(to_unit(1.0, "km/h") * np.array(result.speeds), result.decay_rates, color="#1f4e9e", label=label)
     ax.axhline(0.0, color="black", linewidth=0.8)
     for each in result.critical_speeds:
