@@ -6,11 +6,12 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
+from .catalogue_file import DAMPERS
 from .damper_catalogue import COLUMNS, QUANTITIES
 from .diagnostics import ProblemError
 from .document import Document, Mapping, Node, Scalar, Sequence, compose
 from .parameters import ADDED, BOGIE, PARAMETERS, VERTICAL
-from .problem_sheet import DAMPERS, HEADS, SHEET, path_of
+from .problem_sheet import HEADS, SHEET, path_of
 from .quantities import split_quantity
 from .running import CURVE
 from .starter import starter
