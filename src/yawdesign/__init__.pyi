@@ -22,6 +22,7 @@ from yawdesign.hunting.stability import stability as stability
 from yawdesign.hunting.verdict import Stability as Stability
 from yawdesign.output.animation import animate as animate
 from yawdesign.output.plots import plot as plot
+from yawdesign.output.report.report import report as report
 from yawdesign.problem import PARAMETERS as PARAMETERS
 from yawdesign.problem import Bogie as Bogie
 from yawdesign.problem import CarBody as CarBody

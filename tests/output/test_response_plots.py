@@ -7,8 +7,8 @@ import pytest
 from rich.console import Console
 
 import yawdesign as yd
-from yawdesign.output.response_plots import meaning
 from yawdesign.output.response_tables import damper_tables, simulation_tables
+from yawdesign.output.response_words import meaning
 from yawdesign.problem.parameters import CarBody
 
 PROBLEM = yd.table1(equations="as-printed").replace(C_s="1 046 770 N s/m")

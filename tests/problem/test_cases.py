@@ -85,7 +85,7 @@ def test_every_key_of_the_vehicle_may_change_and_no_other(key, percent):
             "cases.a.K_ds: 0 % of the value as designed is 0 MN/m, outside 1e-06 ... 1e+12 MN/m; a d",
         ),
         ({"a": {"leading.K_dt": "0 %"}}, "leading.K_dt: 0 % of the value as designed is 0 MN/m, outside"),
-        ({"a": {"lambda": "10000 %"}}, "cases.a.lambda: 10000 % of the value as designed is 15, outside 0 ... 10"),
+        ({"a": {"lambda": "10000 %"}}, "cases.a.lambda: 10 000 % of the value as designed is 15, outside 0 ... 10"),
         ({"a": {"K_ds": "0 MN/m"}}, "cases.a.K_ds: 0 MN/m is outside"),
         ({"a": {"C_s": "-5 %"}}, "cases.a.C_s: -5 % is no share of the value as designed: it is less than nothing"),
         ({"a": {"C_s": "5 kg"}}, "cases.a.C_s: 5 kg is a mass"),

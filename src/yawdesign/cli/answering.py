@@ -5,7 +5,6 @@ import logging
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib import import_module
 from signal import SIGINT
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -19,23 +18,16 @@ if TYPE_CHECKING:
 
 DONE, NOTHING_FEASIBLE, BAD_INPUT, SOLVER_FAILED, STOPPED = 0, 1, 2, 3, 128  # 128 and the number of the signal
 
-# What makes the tables of which kind of result, as module and function.
-TABLES_BY = {
-    "Stability": ("yawdesign.output.tables", "stability_tables"),
-    "CriticalSpeeds": ("yawdesign.output.critical_speed_tables", "critical_speed_tables"),
-    "ForwardDesign": ("yawdesign.output.tables", "design_tables"),
-    "Optimum": ("yawdesign.output.optimum_tables", "optimum_tables"),
-    "Choice": ("yawdesign.output.choice_tables", "choice_tables"),
-    "TradeOff": ("yawdesign.output.trade_off_tables", "trade_off_tables"),
-    "Sweep": ("yawdesign.output.sweep_tables", "sweep_tables"),
-    "Uncertainty": ("yawdesign.output.uncertainty_tables", "uncertainty_tables"),
-    "Simulation": ("yawdesign.output.response_tables", "simulation_tables"),
-    "Modes": ("yawdesign.output.mode_tables", "modes_tables"),
-    "FollowedModes": ("yawdesign.output.mode_tables", "followed_tables"),
-    "Export": ("yawdesign.output.tables", "export_tables"),
-}
-
 ProblemFile = Annotated[str, typer.Argument(metavar="PROBLEM.YAML", help="The problem file.", show_default=False)]
+Changes = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="NAME=VALUE",
+        help="A value in place of the file's, again and again: C_s='800 kN s/m', speed='280 km/h', "
+        "conditions.load.tare.W='120 kN'.",
+    ),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the result as JSON, in SI units.")]
 Jobs = Annotated[int, typer.Option(min=1, help="Number of processes.")]
 Dask = Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")]
@@ -127,14 +119,21 @@ def progress_shown() -> "Iterator[Progress]":
         yield lambda text, part: bar.update(task, description=text, completed=part)
 
 
-def read_problem(path: str) -> "Problem":
-    """Return the problem of a file; warnings go to standard error."""
+def read_problem(path: str, changes: list[str] | None = None) -> "Problem":
+    """Return the problem of a file, with what --set says in it; warnings go to standard error."""
     from yawdesign.problem import ProblemError, read
+    from yawdesign.problem.changes import NewValue, written_value
+    from yawdesign.problem.diagnostics import Mistakes
 
-    problem, diagnostics = read(path)
-    if problem is None:
-        raise ProblemError(diagnostics)
-    for diagnostic in diagnostics:
+    mistakes, values = Mistakes(), list[NewValue]()
+    for text in changes or ():
+        with mistakes.under(""):
+            values.append(written_value(text))
+    problem, diagnostics = read(path, values)
+    found = [*mistakes.found, *diagnostics]
+    if problem is None or mistakes.found:
+        raise ProblemError(found)
+    for diagnostic in found:
         tell(diagnostic.render())
     return problem
 
@@ -145,6 +144,6 @@ def show(result: Any, as_json: bool, indent: int | None = 2) -> None:
         write_answer(json.dumps(result.to_dict(), indent=indent, allow_nan=False) + "\n")
         return
     from yawdesign.output.tables import rendered
+    from yawdesign.output.tables_by_result import tables_of
 
-    home, function = TABLES_BY[type(result).__name__]
-    write_answer(rendered(getattr(import_module(home), function)(result)))
+    write_answer(rendered(tables_of(result)))

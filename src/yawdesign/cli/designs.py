@@ -7,6 +7,7 @@ import typer
 
 from yawdesign.cli.answering import (
     AsJson,
+    Changes,
     Dask,
     Jobs,
     ProblemFile,
@@ -18,27 +19,27 @@ from yawdesign.cli.answering import (
 )
 
 
-def stability(file: ProblemFile, as_json: AsJson = False) -> None:
+def stability(file: ProblemFile, changes: Changes = None, as_json: AsJson = False) -> None:
     """Tell whether bogie or vehicle is stable with its C_s, under all conditions and with each fault."""
-    result = _answer(file, as_json, "yawdesign.hunting.stability", "stability")
+    result = _answer(file, changes, as_json, "yawdesign.hunting.stability", "stability")
     raise ended(checked=result.checked, feasible=result.stable and _met(result))
 
 
-def design(file: ProblemFile, as_json: AsJson = False) -> None:
+def design(file: ProblemFile, changes: Changes = None, as_json: AsJson = False) -> None:
     """Find the stable yaw damping, the curve's limit and the golden section between them."""
-    result = _answer(file, as_json, "yawdesign.damper.forward", "design")
+    result = _answer(file, changes, as_json, "yawdesign.damper.forward", "design")
     raise ended(checked=result.checked, feasible=result.stable and _met(result))
 
 
-def critical_speed(file: ProblemFile, as_json: AsJson = False) -> None:
+def critical_speed(file: ProblemFile, changes: Changes = None, as_json: AsJson = False) -> None:
     """Tell up to which speed bogie or vehicle is stable with its C_s under all conditions, whatever its speeds are."""
-    result = _answer(file, as_json, "yawdesign.hunting.critical_speed", "critical_speed")
+    result = _answer(file, changes, as_json, "yawdesign.hunting.critical_speed", "critical_speed")
     raise ended(checked=result.checked, feasible=result.stable_up_to != 0 and _met(result))
 
 
-def _answer(file: str, as_json: bool, home: str, function: str) -> Any:
+def _answer(file: str, changes: list[str] | None, as_json: bool, home: str, function: str) -> Any:
     with mistakes_told():
-        problem = read_problem(file)
+        problem = read_problem(file, changes)
         result = getattr(import_module(home), function)(problem)
         show(result, as_json)
     return result
@@ -50,6 +51,7 @@ def _met(result: Any) -> bool:
 
 def optimise(
     file: ProblemFile,
+    changes: Changes = None,
     as_json: AsJson = False,
     seed: Annotated[
         int, typer.Option(min=0, help="Of the search points; with more than three variables try a few.")
@@ -59,7 +61,7 @@ def optimise(
 ) -> None:
     """Find the C_s, K_m and C_m (or other variables) of largest stability margin that the curve allows."""
     with mistakes_told():
-        problem = read_problem(file)
+        problem = read_problem(file, changes)
         from yawdesign.damper.optimise import optimise as best
         from yawdesign.study.executors import workers
 

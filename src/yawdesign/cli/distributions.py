@@ -6,6 +6,7 @@ import typer
 
 from yawdesign.cli.answering import (
     AsJson,
+    Changes,
     Dask,
     Force,
     Jobs,
@@ -20,12 +21,13 @@ from yawdesign.cli.answering import (
 
 def uncertainty(
     file: ProblemFile,
+    changes: Changes = None,
     samples: Annotated[int | None, typer.Option(help="How many; 1 048 576, fewer with many conditions.")] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the samples.")] = 0,
     jobs: Jobs = 1,
     dask: Dask = None,
     plot: Annotated[str | None, typer.Option(help="Draw a picture: .png, .pdf or .svg.")] = None,
-    of: Annotated[str, typer.Option(help="What --plot draws: tornado (default), margin or C_sl.")] = "tornado",
+    of: Annotated[str, typer.Option(help="What --plot draws: both (default), tornado, margin or C_sl.")] = "both",
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:
@@ -39,7 +41,7 @@ def uncertainty(
         from yawdesign.study.executors import workers
         from yawdesign.study.uncertainty import uncertainty as found
 
-        problem = read_problem(file)
+        problem = read_problem(file, changes)
         try:
             as_choice(of, OF)
         except ProblemError as error:

@@ -8,6 +8,7 @@ import typer
 
 from yawdesign.cli.answering import (
     AsJson,
+    Changes,
     ProblemFile,
     mistakes_told,
     read_problem,
@@ -20,6 +21,7 @@ from yawdesign.output.streams import tell, write_answer
 def export(
     file: ProblemFile,
     to: Annotated[str, typer.Option(metavar="DIR", help="Folder to write; new or empty.", show_default=False)],
+    changes: Changes = None,
     inputs: Annotated[
         str | None, typer.Option(metavar="C_s,K_m,v", help="Parameters that stay inputs; all, if not given.")
     ] = None,
@@ -36,7 +38,7 @@ def export(
 ) -> None:
     """Write the model as functions for C, MATLAB and CasADi, with a manifest of their inputs and outputs."""
     with mistakes_told():
-        under, problem = asked_condition(condition), read_problem(file)
+        under, problem = asked_condition(condition), read_problem(file, changes)
         from yawdesign.exports.write import export as write
 
         result = write(
@@ -85,10 +87,10 @@ def _write_schema(path: Path, force: bool) -> bool:
     return False
 
 
-def check(file: ProblemFile) -> None:
+def check(file: ProblemFile, changes: Changes = None) -> None:
     """List every mistake of a problem file, and doubtful values."""
     with mistakes_told():
-        read_problem(file)
+        read_problem(file, changes)
         write_answer(f"{file}: no errors\n")
 
 

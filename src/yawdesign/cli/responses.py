@@ -6,6 +6,7 @@ import typer
 
 from yawdesign.cli.answering import (
     AsJson,
+    Changes,
     Force,
     ProblemFile,
     ended,
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 def simulate(
     file: ProblemFile,
+    changes: Changes = None,
     as_json: AsJson = False,
     track: Annotated[
         str,
@@ -63,7 +65,7 @@ def simulate(
         targets = (*tables, Target("--plot", plot, pictures.PICTURES, force))
         to_csv, to_npz, to_plot = checked_targets(targets, [file, track])
         pictures.check_pictures(to_plot)
-        under, problem = asked_condition(condition), read_problem(file)
+        under, problem = asked_condition(condition), read_problem(file, changes)
         _check_response(problem, response, plot)
         with progress_shown() as progress:
             from yawdesign.response.run.simulate import simulate as run
@@ -113,6 +115,7 @@ def _check_response(problem: "Problem", response: list[str] | None, plot: str | 
 
 def modes(
     file: ProblemFile,
+    changes: Changes = None,
     over: Annotated[
         str, typer.Option(metavar="NAME=LOW:HIGH:N[:log]", help="Follow the modes, such as 'v=50 km/h:450 km/h:80'.")
     ] = "",
@@ -137,7 +140,7 @@ def modes(
         to_plot, to_animate = checked_targets(drawn, [file])
         pictures.check_pictures(to_plot, to_animate)
         _check_modes(over=over, plot=plot, of=of, animate=animate, to=to)
-        under, problem = asked_condition(condition), read_problem(file)
+        under, problem = asked_condition(condition), read_problem(file, changes)
         if over:
             from yawdesign.response.modes.followed_modes import follow_modes
 

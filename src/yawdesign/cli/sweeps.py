@@ -6,6 +6,7 @@ import typer
 
 from yawdesign.cli.answering import (
     AsJson,
+    Changes,
     Force,
     ProblemFile,
     code_of,
@@ -24,6 +25,7 @@ def sweep(
     over: Annotated[
         list[str], typer.Option(metavar="NAME=LOW:HIGH:N[:log]", help="An axis; one to three.", show_default=False)
     ],
+    changes: Changes = None,
     of: Annotated[
         str,
         typer.Option(help="stable, decay_rate, damping_ratio, margin, critical, C_sl, design or critical_speed."),
@@ -40,7 +42,7 @@ def sweep(
 ) -> None:
     """Answer one question at every point of a grid of parameters: curves, maps, stability charts."""
     with mistakes_told():
-        problem = read_problem(file)
+        problem = read_problem(file, changes)
         from yawdesign.output.sweep_files import Outputs, RescuedError
         from yawdesign.problem.stopping import held, let_through
         from yawdesign.study.executors import workers

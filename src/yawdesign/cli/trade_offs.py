@@ -8,6 +8,7 @@ import typer
 
 from yawdesign.cli.answering import (
     AsJson,
+    Changes,
     Dask,
     Force,
     Jobs,
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
 def trade_off(
     file: ProblemFile,
+    changes: Changes = None,
     points: Annotated[int, typer.Option(help="For how many rotational resistances the best design is found.")] = 12,
     csv: Annotated[str | None, typer.Option(help="Write a table.")] = None,
     plot: Annotated[str | None, typer.Option(help="Draw a picture: .png, .pdf or .svg.")] = None,
@@ -38,7 +40,7 @@ def trade_off(
 ) -> None:
     """Find how much margin each rotational resistance allows, and the design that has it."""
     with mistakes_told():
-        problem = read_problem(file)
+        problem = read_problem(file, changes)
         write = _outputs(file, csv, plot, force)
         from yawdesign.damper.trade_off import IncompleteTradeOffError
         from yawdesign.damper.trade_off import trade_off as front

@@ -36,7 +36,7 @@ class Mode:
     frequency : float
         Damped frequency [Hz]; 0 for a real root.
     damping_ratio : float
-        -Re(s)/|s| [-].
+        -Re(s)/abs(s) [-].
     decay_rate : float
         -Re(s) [1/s].
     """

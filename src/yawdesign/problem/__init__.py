@@ -3,7 +3,6 @@
 from .creep import creep_coefficients
 from .diagnostics import Diagnostic, ProblemError
 from .parameters import PARAMETERS, Bogie, CarBody
-from .presets import table1
 from .problem import Problem
 from .quantities import Written, exact, format_quantity, parse_quantity, to_unit
 from .reader import load, loads, read
@@ -11,6 +10,7 @@ from .running import Curve, SpeedRange
 from .schema import SCHEMA_FILE, schema
 from .starter import starter
 from .table import Parameter
+from .table1 import table1
 from .variables import Design, Variable
 
 __all__ = [

@@ -8,7 +8,7 @@ from typing import Any
 
 from .diagnostics import Diagnostic, Mistakes, ProblemError, suggestion, wrong_key
 from .parameters import BOGIE, CAR_BODY, PARAMETERS
-from .quantities import format_quantity, split_quantity
+from .quantities import decimal_text, format_quantity, split_quantity
 from .table import Parameter, as_quantity, as_text, key_of, shown
 
 BOGIES = ("leading", "trailing")
@@ -43,7 +43,7 @@ class Change:
     @property
     def written(self) -> float | str:
         """The value as a problem file has it: a share is a percentage [%], any other in SI units [SI]."""
-        return f"{float(self.value) * 100:.15g} %" if self.share else float(self.value)
+        return f"{decimal_text(self.value, '%')} %" if self.share else self.value
 
     def is_none(self, designed: float | None) -> bool:
         """Return whether it leaves a value as designed as it is; None where that is not known, or may be changed."""

@@ -101,6 +101,14 @@ def with_catalogue(document: Document, data: dict[str, Any]) -> tuple[dict[str, 
     return {**data, "design": others}, found
 
 
+def with_named_catalogue(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the data of a problem with the dampers of the file that it names, which is looked for as it is named."""
+    design = data.get("design")
+    if not isinstance(design, Mapping) or not isinstance(named := design.get("catalogue"), str):
+        return dict(data)
+    return {**data, "design": {**design, "catalogue": read_catalogue(named)}}
+
+
 class _Sheet:
     """A file as cells with their places, and the mistakes in it so far."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from typing import Literal, get_args
 
 from .cases import Case, outside
 from .condition import CREEP, CREEP_FACTOR, MOST_LISTED, Conditions, Load
@@ -13,6 +14,8 @@ from .requirements import Requirement, without_cases
 from .running import SPEED
 from .table import RIGID, Parameter
 
+Equations = Literal["reciprocal", "as-printed"]
+EQUATIONS: tuple[str, ...] = get_args(Equations)
 GRAVITY = 9.80665  # [m/s^2], the standard acceleration of free fall
 Values = Mapping[str, float | None]  # what is given of a part, by key; None where the value is not known
 

@@ -26,7 +26,7 @@ from .written_conditions import OWN_KEYS, read_conditions
 
 _NO_ROBUST = "is not a known key: what must hold stands under conditions, such as lambda: [0.05, 0.40]"
 _TAGS = ("<range>", "<value>")
-_TOP = (
+TOP = (
     *("title", "equations", "bogie", "car_body", "speed", "curve", "conditions", "cases", "requirements", "design"),
     "uncertainty",
 )
@@ -40,6 +40,11 @@ class Fault:
     path: Path
     message: str
     at_key: bool = False
+
+    @property
+    def diagnostic(self) -> Diagnostic:
+        """The same without a place in a text."""
+        return Diagnostic(key=dotted(self.path), message=self.message, at_key=self.at_key)
 
 
 def dotted(path: Path) -> str:
@@ -182,7 +187,7 @@ def _allowed(around: Path, kind: str) -> tuple[str, ...]:
     """Return the keys that may stand at a place."""
     match around:
         case ():
-            return _TOP
+            return TOP
         case ("bogie",):
             return ("kind", "base", *bogie_keys(kind), *SWITCHES["bogie"], "creep")
         case ("bogie", "creep"):

@@ -5,9 +5,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from typing import Any
 
+from .notebook_view import NotebookView
+
 
 @dataclass(frozen=True, repr=False)
-class Result:
+class Result(NotebookView):
     """A result: its attributes are the keys of `to_dict`."""
 
     def _entries(self) -> Mapping[str, Any]:

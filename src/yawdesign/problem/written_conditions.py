@@ -154,6 +154,8 @@ def _load(written: str, given: object, others: list[Load]) -> Load:
 
 
 def _changes(written: object) -> tuple[tuple[str, float], ...]:
+    if written == {}:
+        return ()  # the vehicle as designed
     mistakes, found = Mistakes(), dict[str, float]()
     with mistakes.under(""):
         for name, value in _items(written, "W: 200 kN"):

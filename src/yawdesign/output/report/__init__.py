@@ -1,1 +1,1 @@
-"""The page for a design review."""
+"""The page that is handed in at a design review: a design review as one HTML file that needs nothing but itself."""
