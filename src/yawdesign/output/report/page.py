@@ -37,6 +37,7 @@ SECTIONS: "tuple[Callable[[DesignReview], Section | None], ...]" = (
     motion_sections.run,
     motion_sections.damper,
     motion_sections.car_body,
+    motion_sections.live,
     closing_sections.limits,
     closing_sections.checks,
 )
