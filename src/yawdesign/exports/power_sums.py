@@ -17,8 +17,8 @@ class PowerSum:
     Parameters
     ----------
     constants : mapping int -> number
-        Floats or decimals, one for every product; the powers of the variables, which may be negative, are the digits of the
-        product's number, so that the number of a product of two products is the sum of theirs.
+        Floats or decimals, one for every product. The powers of the variables, which may be negative, are the digits of
+        the product's number; so the number of a product of two products is the sum of theirs.
 
     Examples
     --------

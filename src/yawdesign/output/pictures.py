@@ -134,10 +134,10 @@ def _seen(text: str) -> str:
 
 
 def _room(ax: "Axes") -> float:
-    """Return the width that belongs to some axes and what stands beside them [pt]."""
+    """Return the width that belongs to some axes, or those they are a part of, and what stands beside them [pt]."""
     figure: Any = ax.get_figure(root=True)
     place = ax.get_subplotspec()
-    width = ax.get_position().width if place is None else place.get_position(figure).width
+    width = ax.get_position().width if place is None else place.get_topmost_subplotspec().get_position(figure).width
     pars = figure.subplotpars
     return float(72.0 * figure.get_figwidth() * min(1.0, width / (pars.right - pars.left)))
 

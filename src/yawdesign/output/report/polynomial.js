@@ -68,18 +68,36 @@ function backwardError(p, [x, y], unit) {
   return Math.hypot(re, im) / sum;
 }
 
-/** Real part and imaginary part over w of a polynomial at j w, from its even and odd coefficients; x = w^2. */
-function onAxis(part, x) {
-  const squared = exactProduct(Math.sqrt(x), Math.sqrt(x));
-  const negative = [-squared[0], -squared[1]];
-  const halves = [[0, 0], [0, 0]];
-  for (let k = part.length - 1; k >= 0; k--) halves[k % 2] = plus(times(halves[k % 2], negative), part[k]);
-  return halves;
+/** Every second coefficient of a polynomial from a first one on, as a polynomial in -w^2; w a double. */
+function halfAt(part, first, w) {
+  const [x, y] = exactProduct(-w, w);
+  let t = SPLITTER * x;
+  const xh = t - (t - x);
+  const xl = x - xh;
+  let [high, low] = [0, 0];
+  // times and plus written out: a picture needs this a million times.
+  for (let k = part.length - 1 - ((part.length - 1 - first) % 2); k >= first; k -= 2) {
+    const p = high * x;
+    t = SPLITTER * high;
+    const hh = t - (t - high);
+    const hl = high - hh;
+    const error = hh * xh - p + hh * xl + hl * xh + hl * xl + (high * y + low * x);
+    const [a, b] = part[k];
+    const sum = p + a;
+    const v = sum - p;
+    const rest = p - (sum - v) + (a - v) + (error + b);
+    high = sum + rest;
+    low = rest - (high - sum);
+  }
+  return [high, low];
 }
+
+/** Real part, and imaginary part over w, of a polynomial at j w. */
+const onAxis = (part, w) => [halfAt(part, 0, w), halfAt(part, 1, w)];
 
 /** Something that is zero where a root lies on the axis at j w for a real C_s, between -1 and 1; and that C_s. */
 function crossing(parts, w) {
-  const values = parts.map((part) => onAxis(part, w * w));
+  const values = parts.map((part) => onAxis(part, w));
   const size = values.map(([even, odd]) => Math.hypot(even[0], w * odd[0]));
   const across = ([a, b], [c, d]) => minus(times(a, d), times(b, c));
   const first = across(values[0], values[1]);
@@ -107,7 +125,8 @@ function criticalValues(parts) {
     nodes.push([k, value]);
     // A dip towards zero without a change of sign may hide two values: its bottom is looked for.
     const [before, after] = [grid[n - 1]?.[1], grid[n + 1]?.[1]];
-    const dips = value * before > 0 && value * after > 0 && value / before <= 1 && value / after <= 1;
+    const [one, other] = [before / value, after / value];
+    const dips = one >= 1 && other >= 1 && Math.max(one, other) > 2; // two in one step: at least nine times as high
     if (dips) nodes.push(bottom(miss, k - 1, k + 1, Math.sign(value)));
   });
   nodes.sort((a, b) => a[0] - b[0]);
