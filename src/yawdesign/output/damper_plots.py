@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from yawdesign.output.panels import divided, log_numbers
-from yawdesign.output.pictures import new_axes, put_title, quantity
+from yawdesign.output.pictures import legend_below, new_axes, put_title, quantity
 from yawdesign.output.style import BEFORE, CHOSEN, LIMIT
-from yawdesign.output.sweep_style import legend_below
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,10 +7,9 @@ import numpy as np
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.label_places import Named, names_beside
 from yawdesign.output.mode_paths import Paths
-from yawdesign.output.pictures import new_axes, put_title
+from yawdesign.output.pictures import legend_below, new_axes, put_title
 from yawdesign.output.root_locus import draw_root_locus
 from yawdesign.output.style import BECOMES, BECOMES_DASHES, LIMIT, UNSTABLE, span
-from yawdesign.output.sweep_style import legend_below
 from yawdesign.problem import ProblemError, format_quantity
 from yawdesign.problem.table import as_choice
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.output.panels import divided
-from yawdesign.output.pictures import new_axes, put_title
+from yawdesign.output.pictures import legend_below, new_axes, put_title
 from yawdesign.output.plan_view import (
     COLOURS,
     Body,
@@ -23,7 +23,6 @@ from yawdesign.output.plan_view import (
 )
 from yawdesign.output.response_words import body_name
 from yawdesign.output.style import LIMIT, REST, WIDTH
-from yawdesign.output.sweep_style import legend_below
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -15,7 +15,7 @@ DRAWN_BY: dict[str, tuple[str, str]] = {
     "CriticalSpeeds": ("yawdesign.output.critical_speed_plots", "draw_critical_speeds"),
     "ForwardDesign": ("yawdesign.output.design_plots", "draw_design"),
     "Uncertainty": ("yawdesign.output.uncertainty_plots", "draw_uncertainty"),
-    "Optimum": ("yawdesign.output.design_plots", "draw_optimum"),
+    "Optimum": ("yawdesign.output.optimum_plots", "draw_optimum"),
     "Choice": ("yawdesign.output.choice_plots", "draw_choice"),
     "TradeOff": ("yawdesign.output.trade_off_plots", "draw_trade_off"),
     "DamperComponent": ("yawdesign.output.damper_plots", "damper_component"),

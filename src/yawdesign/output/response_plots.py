@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from yawdesign.output.panels import divided, log_numbers
-from yawdesign.output.pictures import literal, new_axes, put_title, quantity
+from yawdesign.output.pictures import legend_below, literal, new_axes, put_title, quantity
 from yawdesign.output.response_words import body_name
 from yawdesign.output.style import line_of
-from yawdesign.output.sweep_style import legend_below
 from yawdesign.problem import ProblemError, format_quantity
 
 if TYPE_CHECKING:

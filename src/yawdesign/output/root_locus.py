@@ -8,9 +8,8 @@ import numpy as np
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.label_places import Named, names_inside
 from yawdesign.output.mode_paths import Paths
-from yawdesign.output.pictures import put_title
+from yawdesign.output.pictures import legend_below, put_title
 from yawdesign.output.style import LIMIT, STABLE, UNSTABLE, span
-from yawdesign.output.sweep_style import legend_below
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

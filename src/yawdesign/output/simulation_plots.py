@@ -9,10 +9,9 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.panels import divided
-from yawdesign.output.pictures import literal, new_axes, put_title, quantity
+from yawdesign.output.pictures import legend_below, literal, new_axes, put_title, quantity
 from yawdesign.output.response_words import SHOWN, meaning
 from yawdesign.output.style import BEFORE, LIMIT, REST, line_of
-from yawdesign.output.sweep_style import legend_below
 from yawdesign.problem import ProblemError, format_quantity
 from yawdesign.vehicle.signals import first_looked_at
 

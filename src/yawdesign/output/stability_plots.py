@@ -7,10 +7,9 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Complex
 from yawdesign.output.condition_texts import condition_text
-from yawdesign.output.pictures import literal, new_axes, put_title, quantity
+from yawdesign.output.pictures import legend_below, literal, new_axes, put_title, quantity
 from yawdesign.output.root_locus import damping_ray, draw_plane
 from yawdesign.output.style import BECOMES, BECOMES_DASHES, BEFORE, CHOSEN, LIMIT
-from yawdesign.output.sweep_style import legend_below
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

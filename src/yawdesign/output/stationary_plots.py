@@ -4,10 +4,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.output.panels import grid_in
-from yawdesign.output.pictures import literal, new_axes, put_title, quantity
+from yawdesign.output.pictures import legend_below, literal, new_axes, put_title, quantity
 from yawdesign.output.response_words import SHOWN, body_name, meaning
 from yawdesign.output.style import CHOSEN, LIMIT, SERIES, WIDTH
-from yawdesign.output.sweep_style import legend_below
 from yawdesign.problem import format_quantity
 from yawdesign.vehicle.elements import parted
 from yawdesign.vehicle.signals import DIRECTIONS

@@ -48,6 +48,10 @@ class DynamicStiffness:
     loss_factor: float
     damping: float
 
+    def force(self, velocity: float) -> float:
+        """Return the amplitude of the pair's force [N] for an amplitude of its velocity, joints included [m/s]."""
+        return self.stiffness * velocity / (2 * pi * self.frequency)
+
 
 @dataclass(frozen=True, repr=False)
 class DamperComponent(Result):
