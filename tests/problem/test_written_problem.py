@@ -234,9 +234,9 @@ def test_every_parameter_may_stand_in_a_problem():
 
 
 def test_an_optimum_goes_back_into_a_file(tmp_path):
-    text = """{bogie: {base: table1, creep: {kalker_factor: 0.5}}, car_body: {base: huo-dai, l_c: 9.5 m}, speed: 200 km/h,
-    conditions: {lambda: [0.1, 0.2]}, design: {variables: {C_s: {min: 1, max: 1e7}, f_11: {min: 1e6, max: 1e7},
-    K_2z: {min: 1e5, max: 1e6}}}}"""
+    text = """{bogie: {base: table1, creep: {kalker_factor: 0.5}}, car_body: {base: huo-dai, l_c: 9.5 m},
+    speed: 200 km/h, conditions: {lambda: [0.1, 0.2]}, design: {variables: {C_s: {min: 1, max: 1e7},
+    f_11: {min: 1e6, max: 1e7}, K_2z: {min: 1e5, max: 1e6}}}}"""
     problem = loads(text)
     optimum = {"C_s": 2593442.98245614, "f_11": 5.5e6, "K_2z": 0.71e6}  # as the attribute of a result
     problem.replace(**optimum).to_yaml(tmp_path / "best.yaml")

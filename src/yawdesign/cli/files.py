@@ -2,16 +2,19 @@
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from yawdesign.cli.answering import (
+    BAD_INPUT,
     AsJson,
     Changes,
     ProblemFile,
     mistakes_told,
+    name_of,
     read_problem,
+    report_of,
     show,
 )
 from yawdesign.cli.asked_condition import AskedCondition, asked_condition, tell_condition
@@ -87,11 +90,20 @@ def _write_schema(path: Path, force: bool) -> bool:
     return False
 
 
-def check(file: ProblemFile, changes: Changes = None) -> None:
+def check(file: ProblemFile, changes: Changes = None, as_json: AsJson = False) -> None:
     """List every mistake of a problem file, and doubtful values."""
     with mistakes_told():
-        read_problem(file, changes)
-        write_answer(f"{file}: no errors\n")
+        if not as_json:
+            read_problem(file, changes)
+            write_answer(f"{name_of(file)}: no errors\n")
+            return
+        found = {"error": list[dict[str, Any]](), "warning": list[dict[str, Any]]()}
+        for each in report_of(file, changes)[1]:
+            found[each.severity].append(each.to_dict())
+        answer = {"file": name_of(file), "errors": found["error"], "warnings": found["warning"]}
+        write_answer(json.dumps(answer, indent=2) + "\n")
+    if found["error"]:
+        raise typer.Exit(BAD_INPUT)
 
 
 def schema() -> None:

@@ -16,6 +16,7 @@ from yawdesign.cli.answering import (
     show,
 )
 from yawdesign.cli.asked_condition import AskedCondition, asked_condition, tell_condition
+from yawdesign.cli.pictures import tell_written
 
 if TYPE_CHECKING:
     from yawdesign.problem import Problem
@@ -91,6 +92,7 @@ def simulate(
             histories.write_csv(result, to_csv, replace=force)
         if to_npz:
             histories.write_npz(result, to_npz, replace=force)
+        tell_written(to_plot, to_csv, to_npz)
         tell_condition(problem, result)
         show(result, as_json)
     raise ended(checked=result.checked, feasible=result.settles)
@@ -156,6 +158,7 @@ def modes(
             from yawdesign.output.animation import animate as write_animation
 
             write_animation(result, to_animate, mode=animate or None, replace=force)
+        tell_written(to_plot, to_animate)
         tell_condition(problem, result)
         show(result, as_json)
     raise ended(checked=result.checked, feasible=bool(over) or result.stable)

@@ -17,6 +17,7 @@ from yawdesign.cli.answering import (
     show,
     warnings_told,
 )
+from yawdesign.cli.pictures import Plot, tell_written
 from yawdesign.output.streams import tell
 
 
@@ -33,7 +34,7 @@ def sweep(
     hold: Annotated[str | None, typer.Option(help="C_m (default) or xi_m: what stays when f_m changes.")] = None,
     csv: Annotated[str | None, typer.Option(help="Write a table.")] = None,
     npz: Annotated[str | None, typer.Option(help="Write arrays for NumPy.")] = None,
-    plot: Annotated[str | None, typer.Option(help="Draw a picture: .png, .pdf or .svg.")] = None,
+    plot: Plot = None,
     jobs: Annotated[int, typer.Option(min=1, help="Number of processes.")] = 1,
     dask: Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")] = None,
     resume: Annotated[str | None, typer.Option(help="File that keeps unfinished work, and goes on from it.")] = None,
@@ -57,6 +58,7 @@ def sweep(
                     result = answered(asked, executor=executor, resume=resume, progress=progress)
                 with outputs.rescuing(result):
                     outputs.write(result)
+                    tell_written(outputs.csv, outputs.npz, outputs.picture)
                     with let_through():
                         show(result, as_json, indent=None)
             except RescuedError as error:
