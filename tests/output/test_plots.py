@@ -6,7 +6,7 @@ import yawdesign as yd
 from yawdesign.output.plots import DRAWN_BY
 from yawdesign.problem.result import Result
 
-WITHOUT = {"Export", "Fmu", "StateSpaceModel"}  # files and matrices
+WITHOUT = {"Export", "Fmu", "StateSpaceModel", "Reproduction"}  # files, matrices, tables
 
 
 def test_every_public_result_is_drawn():
