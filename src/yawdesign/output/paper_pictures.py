@@ -49,7 +49,7 @@ def curve_panels(curves: Mapping[str, "Sweep"], title: str) -> "Axes":
             explained |= {text.get_text(): mark for text, mark in zip(legend.texts, legend.legend_handles, strict=True)}
             legend.remove()
     with own_texts():
-        figure.legend(explained.values(), explained, loc="outside lower center", ncols=len(explained))
+        figure.legend(explained.values(), explained, loc="outside lower center", ncols=2)
     figure.suptitle(title, fontsize="medium")
     return panels[0]
 
