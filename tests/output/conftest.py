@@ -13,6 +13,8 @@ from matplotlib.transforms import Bbox
 import yawdesign as yd
 from yawdesign.output.pictures import own_texts
 from yawdesign.output.tables_by_result import TABLES_BY
+from yawdesign.study.paper_bogie import paper_bogie
+from yawdesign.study.reproduced_tables import table_3
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
 FAULTS = {"one of the two yaw dampers of the bogie lost": {"C_s": "50 %", "K_ds": "50 %"}}
@@ -40,6 +42,11 @@ def trade_off():
     worst = [{"speed": 250 / 3, "lambda": x, "creep_factor": 0.5, "load": "tare"} for x in (0.05, 0.25)]
     points = [{**point, "worst_condition": each} for each in worst]
     return yd.TradeOff(tuple(points), "decay_rate", 0.08, points[0], None, 0.09, "ok", "found", "all 15 conditions")
+
+
+def reproduced():
+    rows = tuple(table_3(paper_bogie(yd.table1(equations="as-printed"))))
+    return yd.Reproduction(agrees=True, checked=True, rows=rows, changed={}, version="1", drawn={})
 
 
 class Results:
@@ -70,6 +77,7 @@ class Results:
             "SpectrumCheck": lambda: yd.spectrum_check(length="2 km"),
             "Modes": lambda: yd.modes(yd.load(PROBLEMS / "vehicle.yaml")),
             "FollowedModes": lambda: yd.follow_modes(plain, v=[60.0, 70.0, 80.0]),
+            "Reproduction": reproduced,
             "Export": lambda: yd.export(plain, self.folder / "export", only="dynamic_stiffness", formats="casadi"),
             "Fmu": lambda: yd.Fmu(str(self.folder / "a.fmu"), None, "there is no compiler", {"values": "as written"}),
             "StateSpaceModel": lambda: yd.state_space(plain),

@@ -2,9 +2,10 @@
 
 import json
 import logging
+import sys
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from signal import SIGINT
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,10 +16,13 @@ from yawdesign.output.streams import ANSWER, tell, write_answer
 if TYPE_CHECKING:
     from yawdesign.problem import Problem
     from yawdesign.problem.arguments import Progress
+    from yawdesign.problem.reader import Report
 
 DONE, NOTHING_FEASIBLE, BAD_INPUT, SOLVER_FAILED, STOPPED = 0, 1, 2, 3, 128  # 128 and the number of the signal
 
-ProblemFile = Annotated[str, typer.Argument(metavar="PROBLEM.YAML", help="The problem file.", show_default=False)]
+ProblemFile = Annotated[
+    str, typer.Argument(metavar="PROBLEM.YAML", help="The problem file; - for standard input.", show_default=False)
+]
 Changes = Annotated[
     list[str] | None,
     typer.Option(
@@ -103,25 +107,28 @@ def warnings_told(kind: type[Warning] = RuntimeWarning) -> Iterator[None]:
         yield
 
 
-@contextmanager
-def progress_shown() -> "Iterator[Progress]":
-    """Show what is going on on standard error, if a person is looking."""
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+def progress_shown() -> "AbstractContextManager[Progress]":
+    """Show what is going on on standard error."""
+    from yawdesign.output.progress_shown import progress_on_stderr
 
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda text, part: None
-        return
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task("starting", total=1.0)
-        yield lambda text, part: bar.update(task, description=text, completed=part)
+    return progress_on_stderr()
 
 
 def read_problem(path: str, changes: list[str] | None = None) -> "Problem":
     """Return the problem of a file, with what --set says in it; warnings go to standard error."""
-    from yawdesign.problem import ProblemError, read
+    from yawdesign.problem import ProblemError
+
+    problem, diagnostics = report_of(path, changes)
+    if problem is None:
+        raise ProblemError(diagnostics)
+    for diagnostic in diagnostics:
+        tell(diagnostic.render())
+    return problem
+
+
+def report_of(path: str, changes: list[str] | None) -> "Report":
+    """Return the problem of a file, or none, and everything that was found in it and in what --set says."""
+    from yawdesign.problem import read, read_stream
     from yawdesign.problem.changes import NewValue, written_value
     from yawdesign.problem.diagnostics import Mistakes
 
@@ -129,13 +136,18 @@ def read_problem(path: str, changes: list[str] | None = None) -> "Problem":
     for text in changes or ():
         with mistakes.under(""):
             values.append(written_value(text))
-    problem, diagnostics = read(path, values)
-    found = [*mistakes.found, *diagnostics]
-    if problem is None or mistakes.found:
-        raise ProblemError(found)
-    for diagnostic in found:
-        tell(diagnostic.render())
-    return problem
+    if path == "-":
+        if sys.stdin.isatty():
+            tell("reading the problem from the keyboard: end it with Ctrl-D on a line of its own")
+        problem, diagnostics = read_stream(sys.stdin.buffer, name_of(path), values)
+    else:
+        problem, diagnostics = read(path, values)
+    return None if mistakes.found else problem, (*mistakes.found, *diagnostics)
+
+
+def name_of(path: str) -> str:
+    """Return what messages call a file."""
+    return "<stdin>" if path == "-" else path
 
 
 def show(result: Any, as_json: bool, indent: int | None = 2) -> None:

@@ -16,6 +16,7 @@ from yawdesign.cli.answering import (
     show,
 )
 from yawdesign.cli.asked_condition import AskedCondition, asked_condition, tell_condition
+from yawdesign.cli.pictures import tell_written
 
 if TYPE_CHECKING:
     from yawdesign.problem import Problem
@@ -91,6 +92,7 @@ def simulate(
             histories.write_csv(result, to_csv, replace=force)
         if to_npz:
             histories.write_npz(result, to_npz, replace=force)
+        tell_written(to_plot, to_csv, to_npz)
         tell_condition(problem, result)
         show(result, as_json)
     raise ended(checked=result.checked, feasible=result.settles)
@@ -150,15 +152,22 @@ def modes(
 
             result = all_modes(problem, condition=under)
         if to_plot:
-            options: dict[str, Any] = {"of": of or "root_locus"} if over else {"mode": animate or None}
+            along = {"of": of or "root_locus", "target": _required_damping(problem)}
+            options: dict[str, Any] = along if over else {"mode": animate or None}
             pictures.write_picture(plots.plot(result, **options), to_plot, replace=force)
         if to_animate:
             from yawdesign.output.animation import animate as write_animation
 
             write_animation(result, to_animate, mode=animate or None, replace=force)
+        tell_written(to_plot, to_animate)
         tell_condition(problem, result)
         show(result, as_json)
     raise ended(checked=result.checked, feasible=bool(over) or result.stable)
+
+
+def _required_damping(problem: "Problem") -> float | None:
+    """Return the damping ratio that a problem requires without faults [-]."""
+    return next((one.wanted for one in problem.requirements if one.name == "damping_ratio"), None)
 
 
 def _check_modes(*, over: str, plot: str | None, of: str, animate: str, to: str | None) -> None:

@@ -189,7 +189,7 @@ def sturm_chain(F: Digits, digits: int, *, multiple: bool = False) -> list[Digit
 
 
 def _remainder(upper: Digits, lower: Digits) -> Digits:
-    """Return minus the remainder of upper / lower, by the size of the quotient; both have a largest coefficient of 1."""
+    """Return minus the remainder of upper / lower over the quotient's size; both have a largest coefficient of 1."""
     rest = list(upper)
     largest = Decimal(1)
     while len(rest) >= len(lower):

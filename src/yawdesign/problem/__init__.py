@@ -2,15 +2,15 @@
 
 from .creep import creep_coefficients
 from .diagnostics import Diagnostic, ProblemError
+from .paper_example import table1
 from .parameters import PARAMETERS, Bogie, CarBody
 from .problem import Problem
 from .quantities import Written, exact, format_quantity, parse_quantity, to_unit
-from .reader import load, loads, read
+from .reader import load, loads, read, read_stream
 from .running import Curve, SpeedRange
 from .schema import SCHEMA_FILE, schema
 from .starter import starter
 from .table import Parameter
-from .table1 import table1
 from .variables import Design, Variable
 
 __all__ = [
@@ -34,6 +34,7 @@ __all__ = [
     "loads",
     "parse_quantity",
     "read",
+    "read_stream",
     "schema",
     "starter",
     "table1",

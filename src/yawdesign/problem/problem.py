@@ -21,12 +21,14 @@ from .file_data import checked_data
 from .notebook_view import NotebookView
 from .parameters import VERTICAL, Bogie, CarBody, given_of
 from .problem_text import problem_text
+from .problem_workbook import problem_sheets
 from .quantities import Written, exact
 from .requirements import Requirement, as_requirements
 from .running import SPEED, Curve, SpeedRange, as_speeds
 from .table import Parameter, as_choice, as_text, key_of, shown
 from .variables import Design, default_variables
 from .whole_files import write_whole
+from .workbook_writing import write_workbook
 from .written_conditions import as_conditions
 from .written_problem import in_plain_numbers, written
 
@@ -295,6 +297,24 @@ class Problem(NotebookView):
         if path is not None:
             write_whole(Path(path), text.encode(), replace=replace)
         return text
+
+    def to_excel(self, path: str | PathLike[str], *, replace: bool = False) -> None:
+        """Write the problem as a workbook, which reads as the same problem again.
+
+        Parameters
+        ----------
+        path : path
+            Its name ends in .xlsx. The sheet ``problem`` has a row for each value, the sheet ``dampers`` those of a
+            catalogue.
+        replace : bool
+            Whether another file may be replaced.
+
+        Raises
+        ------
+        ProblemError
+            If there is a file and it may not be replaced, or openpyxl is not installed (``yawdesign[excel]``).
+        """
+        write_workbook(path, problem_sheets(self.to_yaml()), replace=replace)
 
 
 _EMPTY: Mapping[str, Any] = {"title": "", "cases": {}, "conditions": {}, "requirements": {}, "uncertainty": {}}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from os import PathLike, fspath
-from typing import Any, Literal
+from typing import Any, BinaryIO, Literal
 
 from .catalogue_file import with_catalogue
 from .changes import NewValue, changed
@@ -16,12 +16,14 @@ from .faults import dotted, placed
 from .file_data import checked_data
 from .presets import without_removed
 from .problem import Problem
+from .problem_sheet import workbook_document
+from .workbook import is_workbook
 
 Report = tuple[Problem | None, tuple[Diagnostic, ...]]
 
 
 def load(path: str | PathLike[str]) -> Problem:
-    """Read a problem file.
+    """Read a problem file, or a workbook (.xlsx) with a sheet named problem.
 
     Parameters
     ----------
@@ -87,14 +89,22 @@ def read(path: str | PathLike[str], changes: Iterable[NewValue] = ()) -> Report:
         Errors and warnings in the order of the lines.
     """
     name = fspath(path)
+    if is_workbook(name):
+        return _read_workbook(name, changes)
     try:
         with open(name, "rb") as file:  # noqa: PTH123 - any name must do, also one that Path would change
-            return read_text(_decoded(file.read(MOST_BYTES + 1), name), name, changes)
-    except ProblemError as error:
-        return None, error.diagnostics
+            return read_stream(file, name, changes)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         return None, (Diagnostic(path=name, message=f"cannot be read: {reason}"),)
+
+
+def read_stream(stream: BinaryIO, name: str, changes: Iterable[NewValue] = ()) -> Report:
+    """Read a problem from an open file as `read` does; more than a problem file may hold is not waited for."""
+    try:
+        return read_text(_decoded(stream.read(MOST_BYTES + 1), name), name, changes)
+    except ProblemError as error:
+        return None, error.diagnostics
 
 
 def read_text(text: str, name: str = "<text>", changes: Iterable[NewValue] = ()) -> Report:
@@ -103,6 +113,18 @@ def read_text(text: str, name: str = "<text>", changes: Iterable[NewValue] = ())
         document = compose(text, name)
     except ProblemError as error:
         return None, _sorted(error.diagnostics)
+    return _read_document(document, changes)
+
+
+def _read_workbook(name: str, changes: Iterable[NewValue]) -> Report:
+    try:
+        document = workbook_document(name)
+    except ProblemError as error:
+        return None, _sorted(error.diagnostics)
+    return _read_document(document, changes)
+
+
+def _read_document(document: Document, changes: Iterable[NewValue]) -> Report:
     data = plain_data(document.root)
     if not isinstance(data, dict):
         empty = data is None

@@ -7,12 +7,14 @@ from typing import Any
 
 from yawdesign.damper.forward import ForwardDesign, design
 from yawdesign.hunting.hurwitz import require_paper_bogie
+from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem, ProblemError
+from yawdesign.problem.consistency import Equations
 from yawdesign.study.printed_values import MOTOR_DAMPING_RATIO, MOTOR_FREQUENCY, PI
 from yawdesign.study.reproduced_row import PRINTED, RECIPROCAL
 from yawdesign.vehicle.vehicle import Model, Vehicle
 
-EQUATIONS = (PRINTED, RECIPROCAL)
+EQUATIONS: tuple[Equations, ...] = (PRINTED, RECIPROCAL)
 
 
 @dataclass(frozen=True)
@@ -75,6 +77,7 @@ def paper_bogie(problem: Problem) -> PaperBogie:
     """
     if problem.bogie.kind != "power":
         raise ProblemError("problem: bogie.kind is trailer, and the paper's bogie has motors: give a power bogie")
+    given_damping(problem)
     require_paper_bogie(Model.of(problem))
     table_1 = Model("power", PRINTED)
     if Model.of(problem).parameters != table_1.parameters or problem.flags:

@@ -1,9 +1,10 @@
 """One number of the paper beside what was computed."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
-PRINTED, RECIPROCAL = "as-printed", "reciprocal"
+PRINTED: Literal["as-printed"] = "as-printed"
+RECIPROCAL: Literal["reciprocal"] = "reciprocal"
 OTHER_EQUATIONS = "the printed number belongs to the equations as printed; with the motors' reaction it is another one"
 
 
@@ -20,7 +21,7 @@ class ReproducedRow:
     equations : str
         "as-printed" or "reciprocal"; empty where both give the same.
     printed, computed : float, str or None
-        In `unit`; None where the paper prints no number, or where there is no answer.
+        In SI units, see `unit`; None where the paper prints no number, or where there is no answer.
     unit : str
         SI unit.
     deviation : float or None
@@ -73,9 +74,21 @@ def row(
     deviation = _deviation(printed, computed)
     if tolerance is not None:
         agrees = deviation is not None and abs(deviation) <= tolerance
-    text = dict(where=where, what=what, equations=equations, unit=unit, reason=reason, check=check)
-    numbers: dict[str, Any] = dict(printed=printed, computed=computed, deviation=deviation, tolerance=tolerance)
-    return ReproducedRow(**text, **numbers, agrees=agrees, misprint=misprint, checked=checked)
+    return ReproducedRow(
+        where=where,
+        what=what,
+        equations=equations,
+        printed=printed,
+        computed=computed,
+        unit=unit,
+        deviation=deviation,
+        tolerance=tolerance,
+        reason=reason,
+        agrees=agrees,
+        misprint=misprint,
+        check=check,
+        checked=checked,
+    )
 
 
 def _deviation(printed: float | str | None, computed: float | str | None) -> float | None:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import isclose, pi, sqrt
+from typing import Any
 
 import numpy as np
 
@@ -95,7 +96,7 @@ def table_2(bogie: PaperBogie, drawn: Simulation) -> Iterator[ReproducedRow]:
         )
     for name in ACCELERATIONS:
         yield row(
-            *("Table II", f"relative deviation of the {name} accelerations that are printed [%]"),
+            *("Table II", f"relative deviation of the {name} accelerations that are printed, in %"),
             printed=RELATIVE_DEVIATION[name],
             computed=100 * (PROPOSED_RMS[name] / ADAMS_RMS[name] - 1),
             unit="-",
@@ -170,7 +171,7 @@ def _ratio(amplitudes: dict[str, complex]) -> float:
     return abs(amplitudes["y_b"]) / abs(amplitudes["phi_b"])
 
 
-def _by_name(names: tuple[str, ...], x: Complex) -> dict[str, complex]:
+def _by_name(names: tuple[str, ...], x: Any) -> dict[str, complex]:
     return {name: complex(value) for name, value in zip(names, x, strict=True)}
 
 

@@ -38,11 +38,11 @@ def table_1(bogie: PaperBogie) -> Iterator[ReproducedRow]:
     where = "Table I"
     for key in parameter_keys("power"):
         parameter = PARAMETERS[key]
-        printed = parse_quantity(f"{parameter.source} {parameter.unit}".replace(" -", ""))
+        printed = float(parse_quantity(f"{parameter.source} {parameter.unit}".replace(" -", "")))
         used = float(bogie.p[key])
         yield row(
             *(where, f"{key}, {parameter.meaning}"),
-            printed=float(printed),
+            printed=printed,
             computed=used,
             unit=parameter.si,
             tolerance=0.0,

@@ -38,7 +38,7 @@ class Reproduction(Result):
     agrees: bool
     checked: bool
     rows: tuple[ReproducedRow, ...]
-    changed: Mapping[str, tuple[float, float]]
+    changed: Mapping[str, tuple[Any, Any]]
     version: str
     drawn: Mapping[str, Any]
 
@@ -47,9 +47,8 @@ class Reproduction(Result):
         """The rows with a judgement."""
         return tuple(row for row in self.rows if row.agrees is not None)
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain data in SI that JSON can hold, without what the figures are drawn from."""
-        return {name: value for name, value in super().to_dict().items() if name != "drawn"}
+    def _entries(self) -> Mapping[str, Any]:
+        return {name: value for name, value in super()._entries().items() if name != "drawn"}
 
     def __repr__(self) -> str:
         agreeing = sum(bool(row.agrees) for row in self.compared)
