@@ -36,7 +36,6 @@ POINTS = 12  # of the front
 FOLLOWED, CHART, MAP, BODY = 81, (81, 121), 41, 25  # values of an axis; with a car body maps are coarser
 COARSE = 17
 SAMPLES = 2**17  # of uncertain parameters
-MOST_CONDITIONS = 500  # whose margins are told
 DURATION = 20.0  # of the run [s]
 
 T = TypeVar("T")
@@ -225,10 +224,13 @@ def _of_design(problem: Problem, optimum: Optimum, told: _Told) -> dict[str, Any
 
 
 def each_condition(problem: Problem) -> tuple[ConditionMargins, ...]:
-    """Return the margins of a design under each condition, the least decay rate first; of ranges under some of each."""
+    """Return the margins of a design under each condition, the least decay rate first.
+
+    Of ranges these are the ends, some speeds, and the worst that a search found.
+    """
     p = {name: float(value) for name, value in problem.parameters().items()}
     judged = Judged(problem, p)
-    every = tuple(dict.fromkeys((*judged.conditions.grid(MOST_CONDITIONS), *judged.looked)))
+    every = tuple(dict.fromkeys((*judged.conditions.first_look, *judged.looked)))
     sets = under_conditions(judged.model, judged.p, [(condition, 1) for condition in every])
     variables = tuple(problem.design.variables)
     rates, ratios = (Measure(of, variables).of(sets) for of in ("decay_rate", "damping_ratio"))

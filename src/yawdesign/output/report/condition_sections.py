@@ -39,7 +39,7 @@ def conditions(review: "DesignReview") -> Section | None:
     )
     unstable = sum(row.decay_rate < 0 for row in every)
     worst = f"{names[0]} with {shown[0].decay_rate:.4g} 1/s"
-    told = f"The worst of {len(every)} conditions is {worst}; unstable under {unstable}."
+    told = f"The worst of {len(every)} conditions is {worst}; unstable under {unstable or 'none'}."
     table = titled(
         f"The {len(shown)} worst of {len(every)} conditions", "condition", "decay rate [1/s]", "damping ratio [%]"
     )
