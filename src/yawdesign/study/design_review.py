@@ -12,7 +12,7 @@ from yawdesign.damper.optimise import optimise
 from yawdesign.damper.optimum import Optimum
 from yawdesign.damper.pareto_front import TradeOff
 from yawdesign.damper.scored_rows import with_damper
-from yawdesign.damper.trade_off import trade_off
+from yawdesign.damper.trade_off import IncompleteTradeOffError, trade_off
 from yawdesign.hunting.all_conditions import Judged
 from yawdesign.hunting.chosen_condition import AS_WRITTEN, WORST
 from yawdesign.hunting.critical_speed import CriticalSpeeds, critical_speed
@@ -29,7 +29,7 @@ from yawdesign.response.modes.named_modes import Modes, modes
 from yawdesign.response.run.simulate import Simulation, simulate
 from yawdesign.study import review_axes
 from yawdesign.study.result import Sweep
-from yawdesign.study.sweep import swept
+from yawdesign.study.sweep import IncompleteSweepError, swept
 from yawdesign.study.uncertainty import Uncertainty, uncertainty
 
 POINTS = 12  # of the front
@@ -196,7 +196,10 @@ class _Told:
             self.progress(f"{name}: {text}" if text else name, self.shown)
 
         told("", 0.0)
-        answer = work(told)
+        try:
+            answer = work(told)
+        except (IncompleteSweepError, IncompleteTradeOffError) as error:  # of a review nothing is kept
+            raise error.__cause__ or error from None
         self.done += share
         self.seconds[name] = time.process_time() - clock
         return answer
