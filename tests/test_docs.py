@@ -17,7 +17,7 @@ PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
 RUN_ELSEWHERE = {"README", "export", "export-casadi", "export-python-control", "fmu"}
 RUN_HERE = {
     *("choose", "conditions", "critical-speed", "modes", "problem-file"),
-    *("response", "sweeps", "trade-off", "uncertainty"),
+    *("notebooks", "response", "sweeps", "trade-off", "uncertainty"),
 }
 COMMANDS = typer.main.get_command(app).commands
 
