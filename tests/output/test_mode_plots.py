@@ -38,22 +38,45 @@ def test_root_locus(over_damping):
     ax = yd.plot(over_damping)
     assert ax.get_xlabel() == "real part [1/s]"
     assert ax.get_ylabel() == "frequency [Hz]"
-    bar = ax.figure.axes[1]
-    assert "kN·s/m" in bar.get_ylabel()
-    assert bar.get_ylim() == pytest.approx((10, 5000))
+    assert legend(ax) == ["10 kN·s/m", "100, 1000 kN·s/m", "5000 kN·s/m"]
     texts = {text.get_text() for text in ax.texts}
-    assert {"stable", "unstable", "wheelset hunting 1", "frame yaw"} <= texts
+    assert {"unstable", "wheelset hunting 1", "frame yaw", "yaw damper relaxation"} <= texts
+    assert "300 km/h" in ax.get_title("left")
+
+
+def legend(ax):
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def test_lines_of_equal_damping_ratio_are_straight(over_speed):
+    ax = yd.plot(over_speed, target=0.05)
+    ray = next(line for line in ax.lines if line.get_label() == "damping ratio 5 %").get_xydata()
+    points = ax.transData.transform([ray[0], 0.3 * ray[1], ray[1]])
+    (x, y), (w, h) = points[1] - points[0], points[2] - points[0]
+    assert x / y == pytest.approx(w / h)
+    assert -ray[1, 0] / np.hypot(ray[1, 0], 2 * np.pi * ray[1, 1]) == pytest.approx(0.05)
 
 
 def test_damping_over_speed(over_speed):
     ax = yd.plot(over_speed, of="damping_ratio", target=0.05)
     assert "km/h" in ax.get_xlabel()
     assert ax.get_xlim() == pytest.approx((50, 450))
-    lines = {line.get_label(): line for line in ax.lines}
     k = over_speed.names.index("wheelset hunting 1")
-    assert lines["wheelset hunting 1"].get_ydata() == pytest.approx(100 * over_speed.damping_ratio[:, k])
-    assert "target 5 %" in lines
-    assert "target 5 %" not in {line.get_label() for line in yd.plot(over_speed, of="damping_ratio").lines}
+    assert any(np.allclose(line.get_ydata(), 100 * over_speed.damping_ratio[:, k]) for line in ax.lines[:-2])
+    assert "wheelset hunting 1" in names(ax)
+    assert legend(ax) == ["required, 5 %"]
+    assert yd.plot(over_speed, of="damping_ratio").get_legend() is None
+
+
+def names(ax):
+    return {name for text in ax.texts for name in text.get_text().split("\n")}
+
+
+def test_where_the_vehicle_becomes_stable_is_marked(over_damping):
+    ax = yd.plot(over_damping, of="damping_ratio")
+    assert legend(ax) == ["becomes stable at about 63.8 kN·s/m"]
+    (mark,) = ax.collections
+    assert mark.get_segments()[0][0][0] == pytest.approx(63.6, rel=5e-3)
 
 
 def test_frequency_on_a_logarithmic_axis(over_damping, over_speed):
@@ -70,19 +93,21 @@ def test_wrong_options(over_speed):
 
 def test_mode_shape_in_plan_view(modes):
     ax = yd.plot(modes, mode="frame yaw")
-    assert ax.get_title().startswith("frame yaw: 9.73 Hz, damping ratio 52.4 %\n300 km/h, C_s = 1 000 kN·s/m")
+    title = "Frame yaw: 9.73 Hz, damping ratio 52.4 %\n300 km/h, $C_\\mathrm{s}$ = 1 000 kN·s/m"
+    assert ax.get_title("left") == title
     moved = bodies(modes, find_mode(modes, "frame yaw"))
-    assert [body.kind for body in moved] == ["wheelset", "wheelset", "motor", "motor", "frame"]
-    assert [body.x for body in moved] == pytest.approx([1.25, -1.25, 0.75, -0.75, 0])
+    assert [body.kind for body in moved] == [*2 * ["wheelset"], *2 * ["motor"], "frame", *2 * ["yaw damper"]]
+    assert [body.x for body in moved[:5]] == pytest.approx([1.25, -1.25, 0.75, -0.75, 0])
     with pytest.raises(yd.ProblemError, match="did you mean frame yaw"):
         yd.plot(modes, mode="frame yow")
 
 
 def test_a_positive_yaw_turns_the_front_to_the_left(modes):
     mode = find_mode(modes, None)
-    frame = bodies(modes, mode)[-1]
+    frame = next(body for body in bodies(modes, mode) if body.kind == "frame")
     ax = yd.plot(modes)
-    drawn = [patch.get_xy() for patch in ax.patches][-5][:4]  # the frame's left beam: front left, rear left, ...
+    beam = next(patch for patch in ax.patches if patch.get_label() == "frame")
+    drawn = beam.get_xy()[:4]  # the left one: front left, rear left, ...
     lift = drawn[0][1] - drawn[1][1]
     assert np.sign(lift) == np.sign(frame.phi.real)
     assert drawn[:, 1].mean() == pytest.approx(frame.y.real + modes.parameters["b_1"] * np.cos(frame.phi.real))
@@ -136,8 +161,7 @@ def test_what_is_optional_is_drawn_too(vehicle):
 
 def test_damping_of_a_vehicle_shows_what_matters(vehicle):
     paths = yd.follow_modes(vehicle, v=np.linspace(200, 400, 12) / 3.6)
-    names = {line.get_label() for line in yd.plot(paths, of="damping_ratio").lines}
-    shown = {name for name in names if not name.startswith("_")}
+    shown = names(yd.plot(paths, of="damping_ratio")) - {"unstable"}
     assert len(shown) == 10
     assert shown >= {"lower sway", "upper sway", "leading bogie hunting", "trailing bogie hunting", "frame lateral"}
     yd.plot(paths)
@@ -149,6 +173,31 @@ def test_the_table_tells_low_conicity_sway(vehicle):
     assert "LOW-CONICITY SWAY: leading bogie hunting grows, and the car body moves 1.7 times" in page.export_text()
     page.print(modes_tables(yd.modes(vehicle)))
     assert "SWAY:" not in page.export_text()
+
+
+def test_the_yaw_dampers_join_frame_and_car_body(modes, vehicle):
+    alone, carried = modes, yd.modes(vehicle)
+    mode = find_mode(alone, "frame yaw")
+    frame = next(body for body in bodies(alone, mode) if body.kind == "frame")
+    rods, cylinders = (body for body in bodies(alone, mode) if body.kind == "yaw damper")
+    assert (rods.y, rods.phi, cylinders.y, cylinders.phi) == (frame.y, frame.phi, 0, 0)
+    shown = bodies(carried, find_mode(carried, "lower sway"))
+    above = next(body for body in shown if body.kind == "car body")
+    trailing = [body for body in shown if body.kind == "yaw damper"][-1]
+    assert trailing.y == pytest.approx(above.y + trailing.x * above.phi)
+    assert abs(trailing.x) > 1
+    without = yd.modes(yd.table1().replace(C_s=0))
+    assert "yaw damper" not in {body.kind for body in bodies(without, without.modes[0])}
+
+
+def test_the_table_holds_amplitude_and_phase(modes):
+    ax = yd.plot(modes, mode="frame yaw")
+    shape = find_mode(modes, "frame yaw").shape
+    cells = [text.get_text() for text in ax.figure.axes[1].texts]
+    value = shape["phi_b"]
+    degrees = round(np.degrees(np.angle(value)))
+    assert cells[cells.index("frame") + 2] == f"{abs(value):.2f} ∠ {degrees}°".replace("-", "−")
+    assert len(yd.plot(modes, ax, mode="frame yaw").figure.axes) == 2  # none beside given axes
 
 
 def test_gif_has_one_cycle(modes):
@@ -164,7 +213,7 @@ def test_gif_has_one_cycle(modes):
 def test_svg_holds_the_shape(modes):
     root = ET.fromstring(svg(modes, "motor yaw, against each other"))
     moving = [group for group in root.iter(SVG + "g") if "data-y" in group.attrib]
-    assert len(moving) == 5
+    assert len(moving) == 7
     front, rear = (complex(*map(float, group.get("data-phi").split())) for group in moving[2:4])
     assert front == pytest.approx(-rear)
     assert abs(front) > 0
@@ -180,7 +229,7 @@ def test_animate_writes_what_the_ending_says(modes, tmp_path):
 
 
 def test_animate_looks_at_the_file_and_the_mode_before_it_draws(modes, tmp_path, monkeypatch):
-    monkeypatch.setattr("yawdesign.output.animation.mode_shape", None)
+    monkeypatch.setattr("yawdesign.output.animation.draw_plan", None)
     (tmp_path / "b.gif").mkdir()
     for name, mode, message in (
         ("none/a.gif", None, "there is no folder"),

@@ -2,6 +2,7 @@
 
 import json
 import logging
+import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
@@ -15,10 +16,22 @@ from yawdesign.output.streams import ANSWER, tell, write_answer
 if TYPE_CHECKING:
     from yawdesign.problem import Problem
     from yawdesign.problem.arguments import Progress
+    from yawdesign.problem.reader import Report
 
 DONE, NOTHING_FEASIBLE, BAD_INPUT, SOLVER_FAILED, STOPPED = 0, 1, 2, 3, 128  # 128 and the number of the signal
 
-ProblemFile = Annotated[str, typer.Argument(metavar="PROBLEM.YAML", help="The problem file.", show_default=False)]
+ProblemFile = Annotated[
+    str, typer.Argument(metavar="PROBLEM.YAML", help="The problem file; - for standard input.", show_default=False)
+]
+Changes = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="NAME=VALUE",
+        help="A value in place of the file's, again and again: C_s='800 kN s/m', speed='280 km/h', "
+        "conditions.load.tare.W='120 kN'.",
+    ),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the result as JSON, in SI units.")]
 Jobs = Annotated[int, typer.Option(min=1, help="Number of processes.")]
 Dask = Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")]
@@ -101,16 +114,40 @@ def progress_shown() -> "AbstractContextManager[Progress]":
     return progress_on_stderr()
 
 
-def read_problem(path: str) -> "Problem":
-    """Return the problem of a file; warnings go to standard error."""
-    from yawdesign.problem import ProblemError, read
+def read_problem(path: str, changes: list[str] | None = None) -> "Problem":
+    """Return the problem of a file, with what --set says in it; warnings go to standard error."""
+    from yawdesign.problem import ProblemError
 
-    problem, diagnostics = read(path)
+    problem, diagnostics = report_of(path, changes)
     if problem is None:
         raise ProblemError(diagnostics)
     for diagnostic in diagnostics:
         tell(diagnostic.render())
     return problem
+
+
+def report_of(path: str, changes: list[str] | None) -> "Report":
+    """Return the problem of a file, or none, and everything that was found in it and in what --set says."""
+    from yawdesign.problem import read, read_stream
+    from yawdesign.problem.changes import NewValue, written_value
+    from yawdesign.problem.diagnostics import Mistakes
+
+    mistakes, values = Mistakes(), list[NewValue]()
+    for text in changes or ():
+        with mistakes.under(""):
+            values.append(written_value(text))
+    if path == "-":
+        if sys.stdin.isatty():
+            tell("reading the problem from the keyboard: end it with Ctrl-D on a line of its own")
+        problem, diagnostics = read_stream(sys.stdin.buffer, name_of(path), values)
+    else:
+        problem, diagnostics = read(path, values)
+    return None if mistakes.found else problem, (*mistakes.found, *diagnostics)
+
+
+def name_of(path: str) -> str:
+    """Return what messages call a file."""
+    return "<stdin>" if path == "-" else path
 
 
 def show(result: Any, as_json: bool, indent: int | None = 2) -> None:

@@ -41,7 +41,8 @@ def best_design(
 ) -> tuple[Space, Float]:
     """Return the best point of a design space, and the space with all conditions that decide it.
 
-    Without requirements first: where that design meets them, they decide nothing.
+    Without requirements first: where that design meets them, they decide nothing. Not so where the search begins near
+    a design that meets them.
 
     Parameters
     ----------
@@ -58,7 +59,7 @@ def best_design(
     turns : sequence of (int, float), optional
         How often the NLP and a refinement follow each other: the number of starts and the radius of each turn.
     """
-    if not space.demands:
+    if not space.demands or space.near is not None:
         return _best_of_all(space, seed, options, progress, spread, turns)
     alone = replace(space, demanding=False, known=space.known[:1])
     free, x = _best_of_all(alone, seed, options, between(progress, 0.0, 0.5), spread, turns)
@@ -105,7 +106,7 @@ def _refined(space: Space, x: Float, seed: int) -> Float:
 
 def searches(space: Space) -> int:
     """Return how many independent searches are made: what one cannot sample densely, several must not miss."""
-    return min(max(1, 4 * len(space.names) - 11), MOST_SEARCHES)
+    return 1 if space.near is not None else min(max(1, 4 * len(space.names) - 11), MOST_SEARCHES)
 
 
 def searched(space: Space, seed: int, progress: Progress, spread: Map = map) -> Float:

@@ -68,21 +68,30 @@ def search(space: Space, seed: int, progress: Progress) -> Float:
     cells = _DesignCells.of(d)
     first = np.concatenate([rng.random((d, FIRST)), space.anchors], axis=1)
     cells.offer(first, space.margins_at(first))
+    floor = LOWEST if space.near is None else _near(space, space.near, cells, rng)
     blocks = list(_blocks(space, rng))
     most = SLOW // len(blocks) if space.is_slow else BLOCK
     for k, x in enumerate(blocks):
         progress("searching the design space", REFINED_FROM * k / len(blocks))
-        _look(space, cells, x[:, rng.permutation(x.shape[1])[:most]])
+        _look(space, cells, x[:, rng.permutation(x.shape[1])[:most]], floor)
     order = np.argsort(-cells.margin, kind="stable")[: STARTS * min(max(1, d - 2), MOST_SPLIT)]
-    order = order[np.isfinite(cells.margin[order])]
+    order = order[np.isfinite(cells.margin[order]) & (cells.margin[order] >= floor)]
     late = between(progress, REFINED_FROM, 1.0)
     return refine(space, cells.x[:, order], cells.margin[order], rng, progress=late)
 
 
-def _look(space: Space, cells: _DesignCells, x: Float) -> None:
-    """Look at points in any order, and keep the best one of every cell."""
+def _near(space: Space, share: float, cells: _DesignCells, rng: np.random.Generator) -> float:
+    """Offer what the anchors become when they are refined, and return which margins are searched for."""
+    x = refine(space, space.anchors, space.margins_at(space.anchors), rng)
+    margin = space.margins_at(x)
+    cells.offer(x, margin)
+    return max(LOWEST, float(margin[0] - share * abs(margin[0])))
+
+
+def _look(space: Space, cells: _DesignCells, x: Float, floor: float) -> None:
+    """Look at points in any order, and keep the best one of every cell, of those above a floor."""
     for _ in range(MOST_LOOKS):
-        level = np.maximum(cells.margin[cells.index(x)], LOWEST)
+        level = np.maximum(cells.margin[cells.index(x)], floor)
         x = x[:, space.beats_at(x, level + GAIN * np.abs(level))]
         if not x.shape[1]:
             break

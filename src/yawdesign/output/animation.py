@@ -2,16 +2,19 @@
 
 import io
 import math
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from yawdesign.hunting.chosen_condition import other_condition_in_words
 from yawdesign.output.film import Film
 from yawdesign.output.markup import plain_text
-from yawdesign.output.mode_plots import mode_shape
-from yawdesign.output.pictures import ANIMATIONS, own_texts
+from yawdesign.output.mode_shape_plots import draw_plan, move
+from yawdesign.output.pictures import ANIMATIONS, legend_below, own_texts, put_title
 from yawdesign.output.plan_view import (
     COLOURS,
-    REST,
     Body,
     Corner,
     bodies,
@@ -23,12 +26,18 @@ from yawdesign.output.plan_view import (
     scale_note,
     subtitle,
 )
+from yawdesign.output.style import LIMIT, REST
 from yawdesign.output.targets import Target, checked_targets
+from yawdesign.problem import PARAMETERS
 from yawdesign.problem.whole_files import write_whole
 from yawdesign.response.modes.named_modes import Modes, NamedMode
 
 FRAMES, PERIOD = 24, 1.6  # pictures and seconds of a cycle
+FILM_DOTS = 120  # of the pictures, in an inch: 960 beside each other
+SIGN = 6.5  # width of a letter in the SVG
 SCALE, LINE = 100.0, 16  # units of the SVG in a metre, and in a line of text
+INK = "currentColor"  # of the page around it; black where it stands alone
+C_S = '<tspan font-style="italic">C</tspan><tspan dy="3" font-size="9">s</tspan><tspan dy="-3"> </tspan>'
 
 SCRIPT = """(function () {
   var svg = document.currentScript.closest("svg"), parts = svg.querySelectorAll("g[data-y]");
@@ -43,7 +52,7 @@ SCRIPT = """(function () {
     });
     requestAnimationFrame(step);
   }
-  requestAnimationFrame(step);
+  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) { requestAnimationFrame(step); }
 })();"""
 
 
@@ -90,17 +99,25 @@ def animate(
 
 
 def gif(result: Modes, mode: str | None = None) -> bytes:
-    """Return a GIF of a mode. Arguments as in `animate`."""
+    """Return a GIF of a mode, as wide as a slide. Arguments as in `animate`."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
     from PIL import Image
 
+    chosen = find_mode(result, mode)
+    figure = Figure(figsize=_figure_size(result), dpi=FILM_DOTS, layout="constrained")
+    ax = figure.add_subplot()
+    canvas: Any = FigureCanvasAgg(figure)
+    drawn = draw_plan(ax, result, chosen)
+    put_title(ax, f"{caption(chosen)}\n{subtitle(result)}", result.condition)
+    legend_below(ax)
     pictures = []
     for k in range(FRAMES):
-        figure = Figure(figsize=_figure_size(result), dpi=80, layout="constrained")
-        mode_shape(result, figure.add_subplot(), mode=mode, phase=2 * math.pi * k / FRAMES)
-        picture = io.BytesIO()
-        figure.savefig(picture, format="png")
-        pictures.append(Image.open(picture).convert("RGB").quantize(64))
+        move(drawn, chosen, 2 * math.pi * k / FRAMES)
+        canvas.draw()
+        figure.set_layout_engine("none")  # from the second picture on everything stays where it is
+        picture = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+        pictures.append(picture.quantize(64))
     out = io.BytesIO()
     duration = int(1000 * PERIOD / FRAMES)
     pictures[0].save(out, "GIF", save_all=True, append_images=pictures[1:], duration=duration, loop=0)
@@ -110,7 +127,7 @@ def gif(result: Modes, mode: str | None = None) -> bytes:
 def _figure_size(result: Modes) -> tuple[float, float]:
     """Return width and height of the pictures [in]: one bogie in plan view is nearly a square, a vehicle is long."""
     left, right, bottom, top = extent(result.parameters)
-    return (5.6, 4.2) if right - left < 2 * (top - bottom) else (7.6, 3.4)
+    return (8.0, 5.6) if right - left < 2 * (top - bottom) else (8.0, 4.2)
 
 
 def svg(result: Modes, mode: str | None = None) -> bytes:
@@ -126,15 +143,17 @@ def _svg(result: Modes, mode: NamedMode) -> str:
     rails = [_line(-length, length, side * SCALE * p["b"]) for side in (1, -1)]
     at_rest = [_group(body, f'fill="none" stroke="{REST}"') for body in shown]
     middle = (left + right) / 2
-    head = [*filter(None, (caption(mode), subtitle(result), plain_text(other_condition_in_words(result.condition))))]
+    point = subtitle(result).replace(f"${PARAMETERS['C_s'].symbol}$ ", C_S)
+    head = [*filter(None, (caption(mode), point, plain_text(other_condition_in_words(result.condition))))]
     texts = [
         *(_text(middle, -top - 4 - LINE * k, line) for k, line in enumerate(reversed(head))),
         *(_text(SCALE * x, -SCALE * y, text) for x, y, text in labels(p)),
-        _text(middle, -bottom + 8, f"{scale_note(p)}; direction of travel: to the right"),
+        _text(middle, -bottom + 8, f"{scale_note(p)}; direction of travel: to the right →"),
+        *_legend(shown, middle, -bottom + 14),
     ]
-    height = top - bottom + 20 + LINE * len(head)
+    height = top - bottom + 24 + LINE * (len(head) + 1)
     box = f"{left:.1f} {-top - 4 - LINE * len(head):.1f} {right - left:.1f} {height:.1f}"
-    size = f'width="{right - left:.0f}" height="{height:.0f}"'
+    size = f'width="{right - left:.0f}" height="{height:.0f}" style="max-width:100%;height:auto"'
     script = SCRIPT.replace("PERIOD", f"{PERIOD}").replace("REAL", "true" if mode.frequency == 0 else "false")
     return "\n".join(
         [
@@ -150,8 +169,25 @@ def _svg(result: Modes, mode: NamedMode) -> str:
     )
 
 
-def _text(x: float, y: float, text: str) -> str:
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="middle" font-size="12" font-family="sans-serif">{text}</text>'
+def _legend(shown: Sequence[Body], middle: float, top: float) -> Iterator[str]:
+    """Yield a row of marks with the names of what they stand for."""
+    kinds = [*dict.fromkeys(body.kind for body in shown)]
+    widths = [SIGN * len(kind) + 26 for kind in kinds]
+    for k, kind in enumerate(kinds):
+        x = middle - sum(widths) / 2 + sum(widths[:k])
+        opacity = next(body.opacity for body in shown if body.kind == kind)
+        yield f'<rect x="{x:.1f}" y="{top:.1f}" width="14" height="10" {_fill(kind, opacity)}/>'
+        yield _text(x + 18, top + 9, kind, "start")
+
+
+def _text(x: float, y: float, text: str, anchor: str = "middle") -> str:
+    style = f'text-anchor="{anchor}" font-size="12" font-family="sans-serif" fill="{INK}"'
+    return f'<text x="{x:.1f}" y="{y:.1f}" {style}>{text}</text>'
+
+
+def _fill(kind: str, opacity: float) -> str:
+    colour = INK if COLOURS[kind] == LIMIT else COLOURS[kind]
+    return f'fill="{colour}" fill-opacity="{opacity}" stroke="{INK}"'
 
 
 def _line(start: float, end: float, y: float) -> str:
@@ -159,7 +195,7 @@ def _line(start: float, end: float, y: float) -> str:
 
 
 def _moving(body: Body) -> str:
-    style = f'fill="{COLOURS[body.kind]}" fill-opacity="{body.opacity}" stroke="black"'
+    style = _fill(body.kind, body.opacity)
     (x, y), (dx, dy) = body.rest, body.shift
     motion = f'data-x="{_path(dx, x)}" data-y="{_path(dy, y)}" data-phi="{body.phi.real:.6f} {body.phi.imag:.6f}"'
     return _group(body, f"{style} {motion}", 1.0)

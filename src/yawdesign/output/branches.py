@@ -35,9 +35,9 @@ class CriticalColumn:
         return ["stable" if not b and a else "unstable" if b and not a else "neither" for a, b in pairwise(self.roots)]
 
     def stable(self, bottom: float, top: float) -> list[tuple[float, float]]:
-        """Return the stable intervals between two ends."""
+        """Return the stable intervals between two ends; of those beyond an end the place of that end."""
         ends = [bottom, *np.clip(self.values, bottom, top), top]
-        return [pair for pair, n in zip(pairwise(ends), self.roots, strict=False) if n == 0 and pair[0] < pair[1]]
+        return [pair for pair, n in zip(pairwise(ends), self.roots, strict=False) if n == 0]
 
 
 def partners(left: CriticalColumn, right: CriticalColumn) -> list[tuple[int, int]]:

@@ -1,16 +1,16 @@
 """A picture of critical speeds. Nothing is computed here."""
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from yawdesign.output.condition_texts import condition_text
 from yawdesign.output.critical_speed_tables import up_to_text
-from yawdesign.output.pictures import literal, new_axes, under_conditions
-from yawdesign.output.style import BECOMES, STABLE, UNSTABLE
-from yawdesign.output.sweep_style import legend_below
-from yawdesign.output.tables import speed
-from yawdesign.problem import to_unit
+from yawdesign.output.mark_labels import MarkLabel, draw_labels
+from yawdesign.output.pictures import legend_below, literal, new_axes, set_title
+from yawdesign.output.style import BECOMES, BECOMES_DASHES, CHOSEN_LINE, LIMIT, LIMIT_LINE, STABLE, UNSTABLE, span
+from yawdesign.problem import format_quantity, to_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,20 +30,53 @@ def draw_critical_speeds(result: "CriticalSpeeds", ax: "Axes | None" = None) -> 
     """
     ax = new_axes(ax)
     low, high = (to_unit(end, "km/h") for end in result.searched)
-    end = high if result.stable_up_to is None else max(low, to_unit(result.stable_up_to, "km/h"))
-    ax.axvspan(low, end, color=STABLE, linewidth=0, label="stable")
-    if end < high:
-        ax.axvspan(end, high, color=UNSTABLE, linewidth=0, label="from the first unstable speed on")
+    _bands(result, ax, low, high)
     condition = {name: value for name, value in result.worst_condition.items() if name != "speed"}
-    label = f"decay rate, {literal(condition_text(condition)) or 'values as given'}"
-    ax.plot(to_unit(1.0, "km/h") * np.array(result.speeds), result.decay_rates, color="#1f4e9e", label=label)
-    ax.axhline(0.0, color="black", linewidth=0.8)
-    for each in result.critical_speeds:
-        ax.axvline(to_unit(each.v, "km/h"), color=BECOMES[each.becomes], linewidth=1.5)
-    wanted = f"1.1 v = {speed(result.speed_wanted)}"
-    ax.axvline(to_unit(result.speed_wanted, "km/h"), color="black", linestyle="dashed", label=wanted)
+    label = f"least decay rate, {condition_text(condition) or 'values as given'}"
+    ax.plot(to_unit(1.0, "km/h") * np.array(result.speeds), result.decay_rates, label=literal(label), **CHOSEN_LINE)
+    ax.axhline(0.0, color=LIMIT, linewidth=0.8)
     ax.set(xlim=(low, high), xlabel="running speed $v$ [km/h]", ylabel="least decay rate of all modes [1/s]")
-    found = f"none up to {up_to_text(result)}" if result.stable_up_to is None else up_to_text(result)
-    ax.set_title(under_conditions(f"Critical speed: {found}", result.conditions), loc="left", fontsize="medium")
+    marks = _marks(result, ax)
+    found = f"none up to {up_to_text(result)}" if result.stable_up_to is None else _speed(result.stable_up_to)
+    if result.stable_up_to == 0:
+        found = f"unstable at {low:.4g} km/h already"
+    title = f"Critical speed: {found}, $C_\\mathrm{{s}}$ = {format_quantity(result.C_s, 'kN·s/m', 4)}"
+    set_title(ax, title, result.conditions)
     legend_below(ax)
+    ax.get_figure(root=True).draw_without_rendering()  # type: ignore[union-attr]  # lays out, labels find their places
+    set_title(ax, title, result.conditions, pad=draw_labels(ax, marks, 3.0) + 5.0)
     return ax
+
+
+def _speed(value: float) -> str:
+    return format_quantity(value, "km/h", 4)
+
+
+def _bands(result: "CriticalSpeeds", ax: "Axes", low: float, high: float) -> None:
+    """Fill what is stable and what is not, from one critical speed to the next."""
+    looks = {"stable": (STABLE, "stable"), "unstable": (UNSTABLE, "unstable")}
+    changes = [(to_unit(each.v, "km/h"), each.becomes) for each in result.critical_speeds if each.becomes in looks]
+    first = "unstable" if result.stable_up_to == 0 else "stable"
+    told = set()
+    for (start, kind), (stop, _) in pairwise([(low, first), *changes, (high, "")]):
+        colour, text = looks[kind]
+        if stop > start:
+            span(ax, start, stop, colour, label="_" if kind in told else text)
+            told.add(kind)
+
+
+def _marks(result: "CriticalSpeeds", ax: "Axes") -> list[MarkLabel]:
+    """Draw critical and required speeds; return their values to be written."""
+    labels = []
+    for each in result.critical_speeds:
+        x = to_unit(each.v, "km/h")
+        ax.axvline(x, color=BECOMES[each.becomes], linestyle=BECOMES_DASHES[each.becomes], linewidth=1.5)
+        if each.becomes != "neither":
+            labels.append(MarkLabel(x, f"{_speed(each.v)}, becomes {each.becomes}", BECOMES[each.becomes]))
+    asked = {round(each.wanted, 9): "required" for each in result.requirements if each.name.endswith("critical_speed")}
+    asked.setdefault(round(result.speed_wanted, 9), "1.1 v for tests")
+    for wanted, text in asked.items():
+        x = to_unit(wanted, "km/h")
+        ax.axvline(x, **LIMIT_LINE)
+        labels.append(MarkLabel(x, f"{text}: {_speed(wanted)}", LIMIT))
+    return labels

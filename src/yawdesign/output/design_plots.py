@@ -1,26 +1,33 @@
-"""Pictures of a forward design and of an optimum."""
+"""Picture of a forward design: an axis of the yaw damping, what is stable on it, the curve's limit and the choice."""
 
 from collections.abc import Sequence
+from itertools import pairwise
+from math import inf, log
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from yawdesign.damper.status import Status
 from yawdesign.output.condition_texts import condition_text
-from yawdesign.output.pictures import LINE, literal, new_axes, under_conditions
-from yawdesign.output.style import BECOMES, STABLE, UNSTABLE
-from yawdesign.output.sweep_style import legend_below
-from yawdesign.output.tables import critical_shown, margin
-from yawdesign.problem import PARAMETERS, ProblemError, format_quantity, to_unit
+from yawdesign.output.mark_labels import MarkLabel, draw_labels, write_inside
+from yawdesign.output.pictures import MARGIN, legend_below, literal, log_axis, new_axes, set_title
+from yawdesign.output.style import BECOMES, CHOSEN, CHOSEN_LINE, EXCLUDED, LIMIT, LIMIT_LINE, STABLE, UNSTABLE, area
+from yawdesign.output.tables import critical_shown
+from yawdesign.problem import format_quantity, to_unit
+from yawdesign.problem.quantities import format_number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from yawdesign.damper.forward import Critical, ForwardDesign
-    from yawdesign.damper.optimum import Optimum
+
+Intervals = Sequence[tuple[float, float]]
 
 DAMPING = to_unit(1.0, "kN·s/m")
-BESIDE_NAMES = 55  # signs of a title above a picture that has names of conditions on its left
+ASIDE = 3.0  # how far the axis goes beyond the marks, as a ratio
+BAR = 0.7  # height of the bars, of a row
+HEIGHT, ROW = 2.4, 0.24  # of a picture with one bar, of each one more [inch]
+LOWEST_ROW, AROUND = 13.0, 75.0  # [pt], in which a condition can still be read; of title, labels and legend
+SIGNS_OF_ROW, LETTER = 38, 5.0  # of a condition's name, and their width [pt]
 
 
 def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
@@ -31,27 +38,47 @@ def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
     result : ForwardDesign
         Of `yawdesign.design`.
     ax : matplotlib.axes.Axes, optional
-        Where to draw.
+        Where to draw; 7 x 2.2 inch are enough. Of many conditions those are drawn for which there is room.
     """
-    ax = new_axes(ax)
+    rows = _rows(result)
+    given, ax = ax, new_axes(ax)
+    figure: Any = ax.get_figure(root=True)
+    if given is None:
+        figure.set_size_inches(figure.get_figwidth(), HEIGHT + ROW * len(rows))
+    else:
+        rows = _nearest(result, rows, int((_points(ax) - AROUND) / LOWEST_ROW) - 1)
     low, high = _ends(result)
-    many = len({condition_text(x.condition) for x in result.critical}) > 1
-    ax.axvspan(low, high, color=UNSTABLE, linewidth=0, label="unstable under some condition" if many else "unstable")
-    for k, (start, stop) in enumerate(result.stable_intervals):
-        text = "_" if k else "stable under every condition" if many else "stable"
-        ax.axvspan(max(start * DAMPING, low), min(stop * DAMPING, high), color=STABLE, linewidth=0, label=text)
-    _critical(result, ax)
-    if result.C_su is not None and result.C_su > 0:
-        text = rf"$C_\mathrm{{su}}$ = {_damping(result.C_su)}, curve's limit"
-        ax.axvline(result.C_su * DAMPING, color="black", linestyle="dashed", label=text)
-    if result.C_s is not None:
-        text = rf"$C_\mathrm{{s}}$ = {_damping(result.C_s)}, golden section"
-        ax.axvline(result.C_s * DAMPING, color="#1f4e9e", linewidth=2.5, label=text)
-    ax.set(xscale="log", xlim=(low, high), xlabel=r"damping of the pair of yaw dampers $C_\mathrm{s}$ [kN·s/m]")
-    title = under_conditions(f"Forward design: {result.status}", result.searched, BESIDE_NAMES if many else LINE)
-    ax.set_title(title, loc="left", fontsize="medium")
+    ax.set(xlim=(low, high), xlabel=r"damping of the pair of yaw dampers $C_\mathrm{s}$ [kN·s/m]")
+    log_axis(ax)
+    every = "every condition" if len(_conditions(result)) > 1 else ""
+    bars = [(every or "this vehicle", result.stable_intervals), *rows]
+    for k, (_, intervals) in enumerate(bars):
+        _bar(ax, k, intervals, result.C_su)
+    names = [name for name, _ in bars] if rows else []
+    ax.set_yticks(range(len(names)), [literal(name) for name in names], fontsize="small")
+    ax.tick_params(axis="y", length=0)
+    ax.spines["left"].set_visible(False)
+    ax.set_ylim(len(rows) + BAR / 2 + 0.1, -BAR / 2 - 0.1)
+    marks = _marks(ax, result)
+    title = f"Forward design: {result.status}".replace("C_s", r"$C_\mathrm{s}$")
+    left = max((LETTER * len(name) for name in names), default=0.0) + MARGIN / 2
+    set_title(ax, title, result.searched, left=left)
     legend_below(ax)
+    figure.draw_without_rendering()  # lays out, so that labels find their places
+    left = ax.get_window_extent().x0 * 72 / figure.dpi
+    set_title(ax, title, result.searched, left=left, pad=draw_labels(ax, marks, 3.0) + 5.0)
+    for k, (_, intervals) in enumerate(bars):
+        for start, stop in intervals:
+            if start > 0 and not (k == 0 and start == result.C_sl):
+                at = [mark.x for mark in marks]
+                text = " ... ".join(format_number(end * DAMPING, 4) for end in (start, stop) if end < inf)
+                write_inside(ax, k, start * DAMPING, min(stop * DAMPING, high), text, at)
     return ax
+
+
+def _points(ax: "Axes") -> float:
+    """Return the height of axes [pt]."""
+    return float(ax.get_window_extent().height * 72 / ax.get_figure(root=True).dpi)  # type: ignore[union-attr]
 
 
 def _damping(value: float) -> str:
@@ -59,80 +86,92 @@ def _damping(value: float) -> str:
 
 
 def _ends(result: "ForwardDesign") -> tuple[float, float]:
-    marks = [x.C_s for x in result.critical] + [x for x in (result.C_su, result.C_s) if x is not None and x > 0]
+    marks = [x.C_s for x in critical_shown(result)] + [x for x in (result.C_su, result.C_s) if x is not None and x > 0]
     marks = [x * DAMPING for x in marks] or [1000.0]
-    return min(marks) / 4, max(marks) * 4
+    return min(marks) / ASIDE, max(marks) * ASIDE
 
 
-def _critical(result: "ForwardDesign", ax: "Axes") -> None:
-    """Draw the critical values beside their conditions, or as lines with their frequency where there is one."""
-    several = len({condition_text(x.condition) for x in result.critical}) > 1
-    if several and len({condition_text({**x.condition, "speed": 0.0}) for x in result.critical}) == 1:
-        _draw_points(ax, result.critical, [to_unit(x.speed, "km/h") for x in result.critical])
-        ax.set_ylabel("running speed $v$ [km/h]")
-        return
-    if several:
-        shown = critical_shown(result)
-        rows = list(dict.fromkeys(condition_text(x.condition) for x in shown))
-        _draw_points(ax, shown, [rows.index(condition_text(x.condition)) for x in shown])
-        ax.set_yticks(range(len(rows)), [literal(row) for row in rows], fontsize="small")
-        ax.set_ylim(-0.6, len(rows) - 0.4)
-        return
-    ax.set_yticks([])
+def _conditions(result: "ForwardDesign") -> dict[str, list["Critical"]]:
+    """Return the critical values under each condition that has any."""
+    out: dict[str, list[Critical]] = {}
     for x in result.critical:
-        ax.axvline(x.C_s * DAMPING, color=BECOMES[x.becomes], linewidth=1.5)
-        text = f" {_damping(x.C_s)}\n at {x.omega / (2 * np.pi):.3g} Hz"
-        ax.annotate(text, (x.C_s * DAMPING, 0.02), xycoords=ax.get_xaxis_transform(), fontsize="small")
+        out.setdefault(condition_text(x.condition), []).append(x)
+    return out
 
 
-def _draw_points(ax: "Axes", critical: "Sequence[Critical]", rows: Sequence[float]) -> None:
-    for kind in dict.fromkeys(x.becomes for x in critical):
-        points = [(x.C_s * DAMPING, row) for x, row in zip(critical, rows, strict=True) if x.becomes == kind]
-        label = f"critical value, above it {'still unstable' if kind == 'neither' else kind}"
-        ax.plot(*zip(*points, strict=True), "o", color=BECOMES[kind], label=label)
+def _rows(result: "ForwardDesign") -> list[tuple[str, Intervals]]:
+    """Return what is stable under each condition, of many under those that are nearest to the ends of the intervals."""
+    each, rows = _conditions(result), []
+    shown = dict.fromkeys(condition_text(x.condition) for x in critical_shown(result))
+    if len(each) > 1:
+        rows = [(_short(name), _intervals(each[name])) for name in shown]
+    if result.single_bogie is not None:
+        rows.append(("one bogie, car body standing still", result.single_bogie.stable_intervals))
+    return rows
 
 
-def draw_optimum(result: "Optimum", ax: "Axes | None" = None) -> "Axes":
-    """Draw where each design variable lies between its bounds, before and at the optimum.
+def _nearest(result: "ForwardDesign", rows: list[tuple[str, Intervals]], count: int) -> list[tuple[str, Intervals]]:
+    """Return so many rows: those with an end that is nearest to where the design becomes stable."""
+    place = result.C_sl or 1.0
 
-    Parameters
-    ----------
-    result : Optimum
-        Of `yawdesign.optimise`.
-    ax : matplotlib.axes.Axes, optional
-        Where to draw.
-    """
-    if result.margin is None:
-        raise ProblemError(f"there is nothing to draw: {result.status}: {result.message}")
-    ax = new_axes(ax)
-    names = list(result.bounds)
-    for row, name in enumerate(names):
-        _variable(ax, row, name, result)
-    ax.set_yticks(range(len(names)), [f"${PARAMETERS[name].symbol}$" for name in names])
-    ax.set(xlim=(-3, 103), ylim=(len(names) - 0.4, -0.6), xlabel="place between the bounds, on a logarithmic scale [%]")
-    before, after = margin(result.margin_before, result.objective), margin(result.margin, result.objective)
-    title = f"Least {result.objective.replace('_', ' ')}: {before} → {after}"
-    ax.set_title(under_conditions(title, result.searched), loc="left", fontsize="medium")
-    legend_below(ax)
-    return ax
+    def distance(k: int) -> float:
+        ends = [end for interval in rows[k][1] for end in interval if 0 < end < inf]
+        return min((abs(log(end / place)) for end in ends), default=inf)
+
+    return [rows[k] for k in sorted(sorted(range(len(rows)), key=distance)[: max(0, count)])]
 
 
-def _variable(ax: "Axes", row: int, name: str, result: "Optimum") -> None:
-    bound, before, unit = result.bounds[name], result.before[name], PARAMETERS[name].unit
-    place = 100 * bound.position
-    label: dict[str, Any] = (
-        {"label": "optimum" if result.status == Status.OPTIMAL else "best found"} if row == 0 else {}
-    )
-    ax.plot([0, 100], [row, row], color="#bbbbbb", linewidth=6, solid_capstyle="butt", zorder=0)
-    ax.plot([place], [row], "o", color="#1f4e9e", markersize=9, **label)
-    for x, value, align in ((0, bound.min, "left"), (100, bound.max, "right")):
-        ax.annotate(
-            format_quantity(value, unit, 4), (x, row), (0, -14), textcoords="offset points", ha=align, size="small"
-        )
-    text = format_quantity(bound.value, unit, 4)
-    align = "left" if place < 10 else "right" if place > 90 else "center"  # it stays inside the picture
-    ax.annotate(text, (place, row), (0, 9), textcoords="offset points", ha=align, color="#1f4e9e")
-    if before is not None and before > 0 and bound.min > 0:
-        was = 100 * np.log(before / bound.min) / np.log(bound.max / bound.min)
-        label = {"label": "before"} if row == 0 else {}
-        ax.plot([was], [row], "o", color="black", markerfacecolor="white", markersize=9, zorder=1, **label)
+def _short(name: str) -> str:
+    return name if len(name) <= SIGNS_OF_ROW else f"{name[: SIGNS_OF_ROW - 3]}..."
+
+
+def _intervals(critical: Sequence["Critical"]) -> Intervals:
+    """Return what lies between critical values and is stable: what begins with one is, and ends with the next one."""
+    ends = [0.0, *(x.C_s for x in critical), inf]
+    kinds = ["stable" if critical[0].becomes == "unstable" else "unstable", *(x.becomes for x in critical)]
+    return [pair for pair, kind in zip(pairwise(ends), kinds, strict=True) if kind == "stable"]
+
+
+def _bar(ax: "Axes", row: int, intervals: Intervals, limit: float | None) -> None:
+    """Draw what is unstable, stable, and stable beyond what the curve allows."""
+    low, high = ax.get_xlim()
+    end = high if limit is None else float(np.clip(limit * DAMPING, low, high))
+    beyond, stable = list[tuple[float, float]](), list[tuple[float, float]]()
+    for start, stop in intervals:
+        a, b = max(start * DAMPING, low), min(stop * DAMPING, high)
+        stable.append((a, min(b, end)))
+        beyond.append((max(a, end), b))
+    parts = {
+        "unstable": (UNSTABLE, [(low, high)]),
+        "stable": (STABLE, stable),
+        "stable, beyond the curve's limit": (EXCLUDED, beyond),
+    }
+    for text, (colour, found) in parts.items():
+        label = text if row == 0 else "_"
+        for a, b in found:
+            if a < b:
+                ax.barh(row, b - a, BAR, left=a, label=label, **area(colour))
+                label = "_"
+
+
+def _frequency(x: "Critical") -> str:
+    return f"{x.omega / (2 * np.pi):.3g} Hz"
+
+
+def _marks(ax: "Axes", result: "ForwardDesign") -> list[MarkLabel]:
+    """Draw C_sl, C_su and the chosen C_s; return their values to be written."""
+    labels = []
+    if result.C_sl:
+        at = [x for x in result.critical if np.isclose(x.C_s, result.C_sl, rtol=1e-6)]
+        text = rf"$C_\mathrm{{sl}}$ = {_damping(result.C_sl)}" + (f", {_frequency(at[0])}" if at else "")
+        labels.append(MarkLabel(result.C_sl * DAMPING, text, BECOMES["stable"]))
+        ax.axvline(result.C_sl * DAMPING, color=BECOMES["stable"], linewidth=1.8)
+    if result.C_su is not None and result.C_su > 0:
+        text = rf"$C_\mathrm{{su}}$ = {_damping(result.C_su)}, limit of the curve"
+        labels.append(MarkLabel(result.C_su * DAMPING, text, LIMIT))
+        ax.axvline(result.C_su * DAMPING, **LIMIT_LINE)
+    if result.C_s is not None:
+        text = rf"$C_\mathrm{{s}}$ = {_damping(result.C_s)}, golden section"
+        labels.append(MarkLabel(result.C_s * DAMPING, text, CHOSEN))
+        ax.axvline(result.C_s * DAMPING, **CHOSEN_LINE)
+    return labels

@@ -26,6 +26,7 @@ VARIABLES = {
     style.UNKNOWN: "unknown",
     style.EXCLUDED: "excluded",
     style.HATCH_COLOUR: "hatch",
+    style.EXCLUDED_HATCH: "excluded-hatch",
     style.CHOSEN: "chosen",
     style.BEFORE: "before",
     style.GRID: "grid",
@@ -116,7 +117,11 @@ def picture(axes: "Axes", name: str, title: str, description: str) -> str:
     figure: Any = axes.get_figure(root=True)
     with own_texts():
         figure.savefig(content, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
-    svg = content.getvalue()
+    return embedded(content.getvalue(), name, title, description)
+
+
+def embedded(svg: str, name: str, title: str, description: str) -> str:
+    """Return an SVG document as an element for a page; the other parameters as of `picture`."""
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, count=1, flags=re.DOTALL)
     svg = re.sub(r'\b(id="|xlink:href="#|url\(#)', rf"\g<1>{name}-", svg)

@@ -4,6 +4,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from yawdesign.output.pictures import quantity
+from yawdesign.output.style import CHOSEN, LIMIT, SERIES
 from yawdesign.problem import format_quantity
 
 if TYPE_CHECKING:
@@ -12,11 +14,12 @@ if TYPE_CHECKING:
 Corner = tuple[float, float]
 Outlines = Callable[[Mapping[str, float]], tuple[tuple[Corner, ...], ...]]
 AMPLITUDE = 0.16  # drawn size of the largest displacement, relative to the half wheelbase
-COLOURS = {"frame": "#4c72b0", "wheelset": "#555555", "motor": "#dd8452", "car body": "#b9d3c2"}
-OPACITY = {"car body": 0.35}
-SOLID = 0.75
-REST = "#c8ccd2"
+# From light to dark in grey print, too: car body, motor, frame, wheelset, yaw damper.
+COLOURS = {"car body": SERIES[2], "motor": SERIES[1], "frame": CHOSEN, "wheelset": SERIES[4], "yaw damper": LIMIT}
+OPACITY = {"car body": 0.18, "motor": 0.6}
+SOLID = 0.8
 APART = 2.2  # half the drawn distance of the bogie centres at most, in half wheelbases: car bodies are long
+DAMPER, BESIDE = 0.5, 0.22  # half the drawn length of a yaw damper, and how far from the frame's beams it is seen [m]
 SPRINGS, FLOOR, ROOF = 0.35, 0.1, 2.6  # springs above the axle; floor and roof of the car body above them [m]
 
 
@@ -26,8 +29,8 @@ class Body:
 
     Parameters
     ----------
-    kind : {"frame", "wheelset", "motor", "car body"}
-        What it is.
+    kind : {"frame", "wheelset", "motor", "car body", "yaw damper"}
+        What it is, or what the part of a damper belongs to that moves with it.
     x : float
         Where its centre of mass is at rest on the drawing, to the right [m]: along the track, forward, in plan view.
     outlines : tuple of tuple of (x, y)
@@ -80,7 +83,7 @@ def bodies(result: "Modes", mode: "NamedMode") -> tuple[Body, ...]:
         for body, kind, x, outlines in _drawn(p)
         if {f"y_{body}", f"phi_{body}"} & set(shape)
     )
-    return (*plan, *_car_body(p, shape), *_from_behind(p, shape))
+    return (*plan, *_car_body(p, shape), *_yaw_dampers(result, shape), *_from_behind(p, shape))
 
 
 def _bogies(p: Mapping[str, float]) -> tuple[tuple[str, float], ...]:
@@ -105,12 +108,35 @@ def _drawn(p: Mapping[str, float]) -> Iterator[tuple[str, str, float, Outlines]]
 def _car_body(p: Mapping[str, float], shape: Mapping[str, complex]) -> Iterator[Body]:
     """Yield the car body at the height of the secondary springs, where the bogies carry it."""
     if "l_c" in p:
-        half = _centre(p)
-        floor = shape["y_c"] + p["h_s"] * shape["th_c"]
-        width = _half_width(p)
-        ends = half + p["a"] + 0.6
-        # Over the bogies it moves as it does; as these are drawn nearer together, it turns by more.
-        yield Body("car body", 0.0, (box(0, 0, ends, width),), floor, shape["psi_c"] * p["l_c"] / half)
+        outline = box(0, 0, _centre(p) + p["a"] + 0.6, _half_width(p))
+        yield Body("car body", 0.0, (outline,), *_floor(p, shape))
+
+
+def _floor(p: Mapping[str, float], shape: Mapping[str, complex]) -> tuple[complex, complex]:
+    """Return how the car body moves where the bogies carry it, and by how much it turns on the drawing.
+
+    Over the bogies it moves as it does; as these are drawn nearer together, it turns by more.
+    """
+    if "l_c" not in p:
+        return 0j, 0j
+    return shape["y_c"] + p["h_s"] * shape["th_c"], shape["psi_c"] * p["l_c"] / _centre(p)
+
+
+def _yaw_dampers(result: "Modes", shape: Mapping[str, complex]) -> Iterator[Body]:
+    """Yield the yaw dampers in two parts: rods that move with the frames, cylinders that move with the car body."""
+    p = result.parameters
+    if not result.C_s:
+        return
+    side = max(p["b_3"], p["b_1"] + BESIDE)
+    rods, cylinders = [], []
+    for s in (1, -1):
+        bracket = box(-DAMPER, s * (p["b_1"] + side) / 2, 0.05, (side - p["b_1"]) / 2 + 0.05)
+        rods += [bracket, box(-0.4 * DAMPER, s * side, 0.6 * DAMPER, 0.02)]
+        cylinders += [box(0.35 * DAMPER, s * side, 0.6 * DAMPER, 0.06), box(DAMPER, s * side, 0.05, 0.1)]
+    y, psi = _floor(p, shape)
+    for bogie, x in _bogies(p):
+        yield Body("yaw damper", x, tuple(rods), shape.get(f"y_b{bogie}", 0j), shape.get(f"phi_b{bogie}", 0j))
+        yield Body("yaw damper", x, tuple(cylinders), y + x * psi, psi)
 
 
 def _from_behind(p: Mapping[str, float], shape: Mapping[str, complex]) -> Iterator[Body]:
@@ -143,7 +169,7 @@ def _end_view(p: Mapping[str, float]) -> float:
 
 
 def _half_width(p: Mapping[str, float]) -> float:
-    return max(p["b"], p["b_1"]) + 0.3
+    return max(p["b"], p["b_1"], p["b_3"] - BESIDE) + 0.4
 
 
 def _wheelset(p: Mapping[str, float]) -> tuple[tuple[Corner, ...], ...]:
@@ -163,7 +189,7 @@ def _frame(p: Mapping[str, float]) -> tuple[tuple[Corner, ...], ...]:
 
 def half_size(p: Mapping[str, float]) -> Corner:
     """Return half the length and half the height of what the plan view must show [m]."""
-    width = max(p["b"], p["b_1"]) + 0.55
+    width = max(p["b"], p["b_1"], p["b_3"] - BESIDE) + 0.68
     length = p["a"] + 1.1 * p["r"] + 0.25
     if "l_c" in p:
         return length + _centre(p), max(width + 0.2, (p["r"] + SPRINGS + ROOF) / 2 + 0.6)
@@ -193,7 +219,7 @@ def caption(mode: "NamedMode") -> str:
 
 def subtitle(result: "Modes") -> str:
     """Return the operating point, in one line."""
-    return f"{format_quantity(result.speed, 'km/h', 4)}, C_s = {format_quantity(result.C_s, 'kN·s/m', 4)}"
+    return f"{format_quantity(result.speed, 'km/h', 4)}, {quantity('C_s', result.C_s)}"
 
 
 def scale_note(p: Mapping[str, float]) -> str:

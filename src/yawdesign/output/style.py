@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 # Areas: stable ones are pale, unstable ones are hatched, so that both are told apart in grey print.
 STABLE, UNSTABLE, UNKNOWN, EXCLUDED = "#dcefe4", "#f6d5cd", "#d9d9d9", "#fdf3d0"
 HATCHES = {UNSTABLE: "////", UNKNOWN: "....", EXCLUDED: "\\\\"}
-HATCH_COLOUR = "#c98b80"
+HATCH_COLOUR, EXCLUDED_HATCH = "#c98b80", "#a08a4c"
 # Lines: what is chosen, limits, critical values.
 CHOSEN, LIMIT, BEFORE = "#1f4e9e", "#000000", "#5b6770"
 BECOMES = {"stable": "#1b6e3a", "unstable": "#b2182b", "neither": "#7f7f7f"}
@@ -26,8 +26,33 @@ DASHES = (
     "solid",
 )
 GRID, REST = "#d5d9de", "#c8ccd2"
-MAP, MAP_OF_SIGNS = "cividis", "PuOr"  # both rise in grey, too
+MORE, LESS = "#1f4e9e", "#f0b27a"  # what a parameter's growing and falling does, apart in grey too
+# Dampers of a catalogue, by what speaks against them: signs differ in shape, and not in colour alone.
+VERDICTS = {
+    "ok": ("o", "#1b6e3a"),
+    "unverified": ("D", "#7f7f7f"),
+    "misses a requirement": ("s", "#b58900"),
+    "unstable": ("x", "#b2182b"),
+    "exceeds the curve's limit": ("^", "#5b6770"),
+    "outside the bounds": ("v", "#8a5ca8"),
+}
+MAP, DARKEST = "cividis", 0.3  # rises in grey, too; from where on black labels are read on it
+HALO = "#ffffff"  # around letters and marks on a coloured ground
 WIDTH, HEIGHT = 7.0, 4.5  # of a picture [inch]
+# Lines and marks with one meaning in all pictures.
+BOUNDARY: dict[str, Any] = {"color": LIMIT, "linewidth": 1.8, "linestyle": "solid"}
+LIMIT_LINE: dict[str, Any] = {"color": LIMIT, "linewidth": 1.3, "linestyle": (0, (5, 3))}
+CHOSEN_LINE: dict[str, Any] = {"color": CHOSEN, "linewidth": 2.2, "linestyle": "solid"}
+GROUND_LINE: dict[str, Any] = {"colors": LIMIT, "linewidths": 0.7, "linestyles": "solid"}  # of equal values on a map
+AS_WRITTEN: dict[str, Any] = {
+    "linestyle": "none",
+    "marker": "o",
+    "color": LIMIT,
+    "markerfacecolor": HALO,
+    "markeredgewidth": 1.8,
+    "markersize": 8,
+    "zorder": 6,
+}
 
 SETTINGS: dict[str, Any] = {
     "font.family": "sans-serif",
@@ -43,7 +68,6 @@ SETTINGS: dict[str, Any] = {
     "legend.frameon": False,
     "legend.fontsize": "small",
     "lines.linewidth": 1.8,
-    "hatch.color": HATCH_COLOUR,
     "hatch.linewidth": 0.6,
     "svg.fonttype": "path",
     "svg.hashsalt": "yawdesign",
@@ -51,8 +75,29 @@ SETTINGS: dict[str, Any] = {
 
 
 def line_of(number: int) -> dict[str, Any]:
-    """Return colour and dashes of the curve with a number, counted from 0."""
-    return {"color": SERIES[number % len(SERIES)], "linestyle": DASHES[number % len(DASHES)]}
+    """Return colour and dashes of the curve with a number, counted from 0; no pair comes again in 42 curves."""
+    again, place = divmod(number, len(SERIES))
+    return {"color": SERIES[place], "linestyle": DASHES[(place + again) % len(DASHES)]}
+
+
+def critical_line(kind: str) -> dict[str, Any]:
+    """Return how a line of critical values is drawn, above which a vehicle becomes stable, unstable, or neither."""
+    width = 1.1 if kind == "neither" else 1.8
+    return {"colors": BECOMES[kind], "linestyles": [BECOMES_DASHES[kind]], "linewidths": width}
+
+
+def steps_of_map(count: int) -> list[Any]:
+    """Return the colours of a map in a number of steps, the darkest first."""
+    import matplotlib
+
+    return list(matplotlib.colormaps[MAP]([DARKEST + (1 - DARKEST) * k / max(1, count - 1) for k in range(count)]))
+
+
+def halo(width: float = 2.5) -> list[Any]:
+    """Return what makes letters readable on a coloured or hatched ground."""
+    from matplotlib.patheffects import withStroke
+
+    return [withStroke(linewidth=width, foreground=HALO)]
 
 
 def span(
@@ -79,4 +124,10 @@ def span(
 
 def area(colour: str) -> dict[str, Any]:
     """Return how an area with a colour is filled."""
-    return {"facecolor": colour, "hatch": HATCHES.get(colour), "edgecolor": HATCH_COLOUR, "linewidth": 0.0}
+    edge = EXCLUDED_HATCH if colour == EXCLUDED else HATCH_COLOUR
+    return {"facecolor": colour, "hatch": HATCHES.get(colour), "edgecolor": edge, "linewidth": 0.0}
+
+
+def hatched(colour: str) -> dict[str, Any]:
+    """Return how an area is marked with what a colour stands for without hiding what is below it."""
+    return {"facecolor": "none", "hatch": HATCHES[colour], "edgecolor": EXCLUDED_HATCH, "linewidth": 0.0}

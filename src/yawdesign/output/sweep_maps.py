@@ -6,166 +6,201 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.branches import curves
-from yawdesign.output.style import BECOMES, STABLE, UNKNOWN, UNSTABLE
+from yawdesign.output.contours import colour_bar, draw_contours
+from yawdesign.output.pictures import legend_below, set_title
+from yawdesign.output.regions import Regions
+from yawdesign.output.style import (
+    BOUNDARY,
+    EXCLUDED,
+    LIMIT_LINE,
+    STABLE,
+    UNKNOWN,
+    UNSTABLE,
+    area,
+    critical_line,
+    hatched,
+)
 from yawdesign.output.sweep_style import (
-    DECADES,
-    LABELS,
+    LIMIT_TEXT,
     ON_MAP,
-    WIDE,
+    UPRIGHT,
     axis_label,
     axis_values,
     columns_of,
-    draw_lines,
-    legend_below,
+    joined,
+    mark_as_written,
     scale_axis,
+    shown_factor,
     shown_unit,
     title,
+    value_label,
 )
 from yawdesign.problem import to_unit
+from yawdesign.study import chart
+from yawdesign.study.axes import Axis
 from yawdesign.study.result import Sweep
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+# Above each other: values, areas without a value, lines.
+AREAS, LINES = 1.5, 2.5
+ABOVE = 9.0  # from a map to its title, past a mark on its edge [pt]
+SEARCHED = {
+    "critical": r"largest critical yaw damping $C_\mathrm{s}$",
+    "critical_speed": "critical speed $v$, stable below",
+}
+
+
+class _Map:
+    """A sweep over two axes as a picture has it: the speed stands upright."""
+
+    def __init__(self, sweep: Sweep) -> None:
+        first, second = sweep.axes
+        self.sweep = sweep
+        self.turned = second.name == "v" or first.name != "v"  # Matplotlib's rows run upwards
+        self.across, self.upright = (first, second) if self.turned else (second, first)
+        self.x, self.y = axis_values(self.across), axis_values(self.upright)
+        self.regions = Regions(self.x, self.y, self.laid(self._kinds()), self._crossings(0), self._crossings(1))
+
+    def laid(self, values: Any) -> Any:
+        """Return values of the grid as Matplotlib has them, a row for each place of the upright axis."""
+        return values.T if self.turned else values
+
+    def _kinds(self) -> chart.Kinds:
+        if self.sweep.chart is not None:
+            return self.sweep.chart.kinds
+        return chart.kinds_of(self.sweep.quantity, self.sweep.columns, self.sweep.known)
+
+    def _crossings(self, side: int) -> Float:
+        axis: Axis = (self.across, self.upright)[side]
+        n, m = self.x.size, self.y.size
+        if self.sweep.chart is None:
+            return np.full((m, n - 1) if side == 0 else (m - 1, n), np.nan)
+        found = self.sweep.chart.crossings[self.sweep.axes.index(axis)]
+        return np.asarray(self.laid(found)) * shown_factor(axis.name)
+
 
 def draw_map(sweep: Sweep, ax: "Axes") -> "Axes":
     """Draw a sweep over two axes; the speed stands upright."""
-    first, second = sweep.axes
-    across, upright = (second, first) if first.name == "v" else (first, second)
-    turned = across is first  # Matplotlib's rows run upwards
-    x, y = axis_values(across), axis_values(upright)
-    handles = (_verdicts if sweep.quantity == "stable" else _values)(sweep, ax, x, y, turned)
-    handles += _boundary(sweep, ax, across.name, x, y, turned)
-    ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]), xlabel=axis_label(across), ylabel=axis_label(upright))
-    scale_axis(ax.set_xscale, across)
-    scale_axis(ax.set_yscale, upright)
-    ax.set_title(title(sweep), loc="left", fontsize="medium")
-    if handles:
-        legend_below(ax, handles=handles)
+    drawn = _Map(sweep)
+    ax.set(xlim=drawn.x[[0, -1]], xlabel=axis_label(drawn.across))
+    ax.set(ylim=drawn.y[[0, -1]], ylabel=axis_label(drawn.upright, UPRIGHT))
+    scale_axis(ax, drawn.across)
+    scale_axis(ax, drawn.upright, upright=True)
+    handles = _values(drawn, ax) if sweep.quantity != "stable" else []
+    handles += _areas(drawn, ax)
+    handles += _other_roots(drawn, ax)
+    handles += _limit(drawn, ax)
+    handles += mark_as_written(ax, sweep, drawn.across.name, drawn.upright.name)
+    set_title(ax, title(sweep), pad=ABOVE)
+    legend_below(ax, handles)
     return ax
 
 
-def _upright(values: Any, turned: bool) -> Any:
-    return values.T if turned else values
-
-
-def _patch(colour: str, text: str) -> Any:
-    from matplotlib.patches import Patch
-
-    return Patch(facecolor=colour, edgecolor="#555555", linewidth=0.5, label=text)
-
-
-def _verdicts(sweep: Sweep, ax: "Axes", x: Float, y: Float, turned: bool) -> list[Any]:
-    from matplotlib.colors import ListedColormap
-
-    verdict = np.where(sweep.known, np.where(sweep.good, 0, 1), 2)
-    looks = ((STABLE, "stable"), (UNSTABLE, "unstable"), (UNKNOWN, "not verified"))
-    colours = ListedColormap([colour for colour, _ in looks])
-    ax.pcolormesh(x, y, _upright(verdict, turned), cmap=colours, vmin=0, vmax=2, shading="nearest", rasterized=True)
-    return [_patch(*looks[k]) for k in np.unique(verdict)]
-
-
-def _values(sweep: Sweep, ax: "Axes", x: Float, y: Float, turned: bool) -> list[Any]:
-    """Draw values as colours, with a bar that explains them; grey where there is none."""
-    values, text = _shown(sweep)
-    shown = np.ma.masked_invalid(values * to_unit(1.0, shown_unit(sweep)))
-    handles = []
-    if sweep.quantity in ("C_sl", "design", "critical", "critical_speed"):
-        handles += _special(sweep, ax, x, y, turned)
-        shown = np.ma.masked_less_equal(shown, 0)
-    mesh = ax.pcolormesh(
-        x, y, _upright(shown, turned), shading="nearest", rasterized=True, zorder=1, **_colours(sweep, shown)
-    )
-    lowest = mesh.get_clim()[0]
-    below = shown.count() and lowest is not None and shown.min() < lowest
-    extend = "min" if below else "neither"
-    ax.figure.colorbar(mesh, ax=ax, label=f"{text} [{shown_unit(sweep)}]", extend=extend)
-    return handles
-
-
-def _shown(sweep: Sweep) -> tuple[Float, str]:
-    """Return the values of a map and their name; of several values the one that matters most."""
-    if sweep.quantity == "critical":
-        return np.fmax.reduce(sweep.main, axis=-1), r"largest critical yaw damping $C_\mathrm{s}$"
-    if sweep.quantity == "critical_speed":
-        roots = sweep.columns["unstable_roots"]
-        lost = np.where((roots[..., :-1] == 0) & (roots[..., 1:] > 0), sweep.main, np.nan)
-        return np.fmin.reduce(lost, axis=-1), "least speed at which stability is lost $v$"
-    return sweep.main, LABELS[sweep.quantity]
-
-
-def _colours(sweep: Sweep, shown: Any) -> dict[str, Any]:
-    from matplotlib.colors import LogNorm, TwoSlopeNorm
-
-    if not shown.count():
-        return {"cmap": "viridis", "vmin": 0, "vmax": 1}
-    low, high = float(shown.min()), float(shown.max())
-    if sweep.quantity in ("decay_rate", "damping_ratio") and low < 0:
-        span = high if high > 0 else -low
-        return {"cmap": "RdBu", "norm": TwoSlopeNorm(0, -span, span)}
-    if low > 0 and high > WIDE * low:
-        return {"cmap": "viridis", "norm": LogNorm(max(low, high / DECADES), high)}
-    return {"cmap": "viridis", "vmin": low, "vmax": high}
-
-
-def _special(sweep: Sweep, ax: "Axes", x: Float, y: Float, turned: bool) -> list[Any]:
-    """Colour the places without a value, by the reason."""
-    from matplotlib.colors import ListedColormap
-
-    values = _shown(sweep)[0]
-    none = ~np.isfinite(values)
-    always, never = _always_and_never(sweep, values, none)
-    place = np.select([~sweep.known, always, never, none], [3, 0, 1, 2], -1)
-    looks = [(STABLE, _always(sweep)), (UNSTABLE, _never(sweep)), ("#fdf3d0", "no design"), (UNKNOWN, "not verified")]
-    colours = ListedColormap([colour for colour, _ in looks])
-    cells = np.ma.masked_less(place, 0)
-    ax.pcolormesh(x, y, _upright(cells, turned), cmap=colours, vmin=0, vmax=3, shading="nearest", rasterized=True)
-    return [_patch(*looks[k]) for k in np.unique(place) if k >= 0]
-
-
-def _always_and_never(sweep: Sweep, values: Float, none: Any) -> tuple[Any, Any]:
-    if "unstable_roots" in sweep.columns:
-        return none & sweep.good, none & ~sweep.good
-    if sweep.quantity == "C_sl":
-        return values == 0, none
-    return np.zeros_like(none), none & (sweep.columns["status"] == "stable for none")
-
-
-def _without_damper(sweep: Sweep) -> Float:
-    """Return 1 where the bogie is stable, without any yaw damping where that is asked for, else 0."""
-    if sweep.quantity in ("C_sl", "design"):
-        return np.asarray(sweep.columns["C_sl"] == 0, dtype=float)
-    if sweep.quantity == "critical":
-        return np.asarray(sweep.columns["unstable_roots"][..., 0] == 0, dtype=float)
-    return sweep.good.astype(float)
+def _looks(sweep: Sweep) -> dict[int, tuple[str, str]]:
+    """Return colour and meaning of each kind of area that is no value."""
+    speeds = sweep.quantity == "critical_speed"
+    return {
+        chart.STABLE: (STABLE, "stable"),
+        chart.UNSTABLE: (UNSTABLE, "unstable"),
+        chart.ALWAYS: (STABLE, "stable at every speed" if speeds else _always(sweep)),
+        chart.NEVER: (UNSTABLE, "stable at no speed" if speeds else r"stable for no $C_\mathrm{s}$"),
+        chart.LATER: (EXCLUDED, "stable from some speed on" if speeds else r"stable from some $C_\mathrm{s}$ on"),
+        chart.NONE: (EXCLUDED, "no design"),
+        chart.UNKNOWN: (UNKNOWN, "not verified"),
+    }
 
 
 def _always(sweep: Sweep) -> str:
-    return "stable at every speed" if sweep.quantity == "critical_speed" else r"stable for every $C_\mathrm{s}$"
+    return "stable without a yaw damper" if sweep.quantity == "C_sl" else r"stable for every $C_\mathrm{s}$"
 
 
-def _never(sweep: Sweep) -> str:
-    return "stable at no speed" if sweep.quantity == "critical_speed" else r"stable for no $C_\mathrm{s}$"
+def _areas(drawn: _Map, ax: "Axes") -> list[Any]:
+    """Fill the areas that have no value with what they stand for, and draw the line around what is stable."""
+    from matplotlib.collections import LineCollection
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch, PathPatch
+
+    looks, regions, handles = _looks(drawn.sweep), drawn.regions, list[Any]()
+    with_values = drawn.sweep.quantity in ("decay_rate", "damping_ratio")
+    filled = [kind for kind in regions.found() if kind in looks and not (with_values and kind == chart.STABLE)]
+    for kind in filled:
+        colour, text = looks[kind]
+        ax.add_patch(PathPatch(regions.outline(kind), zorder=AREAS, **area(colour)))
+        handles.append(Patch(label=text, **{**area(colour), "linewidth": 0.5}))
+    bounding = next((kind for kind in (chart.STABLE, chart.ALWAYS, chart.VALUE) if kind in regions.inside), None)
+    if bounding is not None:
+        lines = LineCollection(regions.lines(bounding), zorder=LINES, **_as_collection(BOUNDARY))
+        lines.set_label("boundary of stability" if bounding == chart.STABLE else "boundary")
+        ax.add_collection(lines)
+        if bounding == chart.STABLE:
+            handles.append(Line2D([], [], label="boundary of stability", **BOUNDARY))
+    return handles
 
 
-def _boundary(sweep: Sweep, ax: "Axes", across: str, x: Float, y: Float, turned: bool) -> list[Any]:
-    """Draw the boundary of stability: exact where the critical values are known, else between the points."""
+def _as_collection(look: dict[str, Any]) -> dict[str, Any]:
+    return {"colors": look["color"], "linewidths": look["linewidth"], "linestyles": look["linestyle"]}
+
+
+def _values(drawn: _Map, ax: "Axes") -> list[Any]:
+    """Draw values as steps of colour between round numbers, with lines that are labelled, and a bar beside it."""
+    sweep = drawn.sweep
+    values = sweep.main
+    if sweep.quantity in SEARCHED:
+        values = chart.shown_values(sweep.quantity, sweep.columns)
+    shown = np.where(sweep.known, values * to_unit(1.0, shown_unit(sweep)), np.nan)
+    signed = sweep.quantity in ("decay_rate", "damping_ratio")
+    if not signed:
+        shown = np.where(shown > 0, shown, np.nan)
+    regions = drawn.regions
+    inside = [regions.outline(kind) for kind in regions.found() if kind in (chart.STABLE, chart.UNSTABLE, chart.VALUE)]
+    steps = draw_contours(ax, drawn.x, drawn.y, drawn.laid(shown), inside, signed=signed)
+    if steps is not None:
+        colour_bar(ax, steps, value_label(sweep, SEARCHED.get(sweep.quantity, "")))
+    return []
+
+
+def _other_roots(drawn: _Map, ax: "Axes") -> list[Any]:
+    """Draw where one more pair of roots becomes unstable in what is unstable already, as far as that is known."""
+    from matplotlib.collections import LineCollection
     from matplotlib.lines import Line2D
 
-    if sweep.boundary is not None:
-        (axis,) = sweep.boundary.axes
-        ends = (x if across == "C_s" else y)[[0, -1]]
-        lines = curves(axis_values(axis), columns_of(sweep.boundary, to_unit(1.0, "kN·s/m")), *ends)
-        draw_lines(ax, lines, swap=across == "C_s")
-        return [Line2D([], [], color=BECOMES[kind], label=ON_MAP[kind]) for kind, found in lines.items() if found]
-    inside = sweep.main if sweep.quantity in ("decay_rate", "damping_ratio") else _without_damper(sweep) - 0.5
-    if min(inside.shape) < 2 or not (np.nanmin(inside) < 0 < np.nanmax(inside)):
+    lines = drawn.sweep.boundary
+    if lines is None or "C_s" not in (drawn.across.name, drawn.upright.name):
         return []
-    ax.contour(x, y, _upright(inside, turned), levels=[0], colors="black", linewidths=1.5)
-    return [Line2D([], [], color="black", label=_line(sweep))]
+    (axis,) = lines.axes
+    swapped = drawn.across.name == "C_s"
+    ends = (drawn.x if swapped else drawn.y)[[0, -1]]
+    pieces = curves(axis_values(axis), columns_of(lines, to_unit(1.0, "kN·s/m")), *ends)["neither"]
+    points = [[(y, x) for x, y in line] for line in joined(pieces)] if swapped else joined(pieces)
+    if not _seen(points, ax):
+        return []
+    look = critical_line("neither")
+    ax.add_collection(LineCollection(points, zorder=LINES, label=ON_MAP["neither"], **look))
+    return [Line2D([], [], color=look["colors"], linestyle=look["linestyles"][0], label=ON_MAP["neither"])]
 
 
-def _line(sweep: Sweep) -> str:
-    return (
-        "stable without a yaw damper" if sweep.quantity in ("C_sl", "design", "critical") else "boundary of stability"
-    )
+def _seen(pieces: list[Any], ax: "Axes") -> bool:
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    return any(left < x < right and bottom < y < top for piece in pieces for x, y in piece)
+
+
+def _limit(drawn: _Map, ax: "Axes") -> list[Any]:
+    """Draw what the curve allows, and hatch what is beyond it, where C_s is an axis."""
+    from matplotlib.patches import Patch, Polygon
+
+    known = drawn.sweep.chart
+    names = drawn.across.name, drawn.upright.name
+    if known is None or known.C_su is None or "C_s" not in names:
+        return []
+    limit = known.C_su * shown_factor("C_s")
+    swapped = names[0] == "C_s"
+    along, (low, high) = (drawn.y, drawn.x[[0, -1]]) if swapped else (drawn.x, drawn.y[[0, -1]])
+    if np.all(limit >= high) or np.all(limit <= low):
+        return []
+    line = ax.plot(*((limit, along) if swapped else (along, limit)), label=LIMIT_TEXT, zorder=LINES, **LIMIT_LINE)
+    edge = [*zip(np.clip(limit, low, high), along, strict=True), (high, along[-1]), (high, along[0])]
+    look = hatched(EXCLUDED)
+    ax.add_patch(Polygon(edge if swapped else [(x, y) for y, x in edge], zorder=LINES - 0.5, **look))
+    return [*line, Patch(label="beyond the limit of the curve", **look)]

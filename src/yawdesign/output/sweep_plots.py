@@ -1,38 +1,53 @@
 """Pictures of sweeps: a curve over one axis, a map over two."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from yawdesign.hunting.arrays import Float
-from yawdesign.output.branches import curves, stable_areas
-from yawdesign.output.pictures import new_axes
-from yawdesign.output.style import BECOMES, STABLE, UNKNOWN, UNSTABLE
+from yawdesign.hunting.arrays import Bools, Float
+from yawdesign.output.branches import CriticalColumn, curves, partners, stable_areas
+from yawdesign.output.pictures import legend_below, log_axis, new_axes, set_title
+from yawdesign.output.style import (
+    BEFORE,
+    CHOSEN_LINE,
+    EXCLUDED,
+    LIMIT_LINE,
+    STABLE,
+    UNKNOWN,
+    UNSTABLE,
+    area,
+    span,
+)
 from yawdesign.output.sweep_maps import draw_map
 from yawdesign.output.sweep_style import (
     DECADES,
     LABELS,
+    LIMIT_TEXT,
     WIDE,
     axis_label,
     axis_values,
     columns_of,
     draw_lines,
-    is_geometric,
-    legend_below,
+    mark_as_written,
+    mark_place,
     scale_axis,
+    shown_factor,
     shown_unit,
     title,
+    value_label,
 )
 from yawdesign.problem import ProblemError, to_unit
 from yawdesign.problem.table import field_name
+from yawdesign.study import chart
 from yawdesign.study.axes import Axis
 from yawdesign.study.result import Sweep
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+UPRIGHT = {"critical": "C_s", "C_sl": "C_s", "design": "C_s", "critical_speed": "v"}  # what the ordinate is
 
 
 def draw(sweep: Sweep, ax: "Axes | None" = None) -> "Axes":
@@ -55,15 +70,21 @@ def draw(sweep: Sweep, ax: "Axes | None" = None) -> "Axes":
         return draw_map(sweep, ax)
     (axis,) = sweep.axes
     x = axis_values(axis)
+    ax.set(xlim=(x[0], x[-1]), xlabel=axis_label(axis))
+    scale_axis(ax, axis)
+    if sweep.quantity != "stable":
+        ax.set_ylabel(value_label(sweep))
     {"critical": _branches, "critical_speed": _branches, "C_sl": _least, "design": _design}.get(
         sweep.quantity, _margin
     )(sweep, ax, x)
-    ax.set_xlim(x[0], x[-1])
-    scale_axis(ax.set_xscale, axis)
-    ax.set_xlabel(axis_label(axis))
-    if sweep.quantity != "stable":
-        ax.set_ylabel(f"{LABELS[sweep.quantity]} [{shown_unit(sweep)}]")
-    ax.set_title(title(sweep), loc="left", fontsize="medium")
+    _mark(ax, x, ~sweep.known, UNKNOWN, "not verified")
+    handles = ax.get_legend_handles_labels()[0]
+    upright = UPRIGHT.get(sweep.quantity)
+    if sweep.quantity in ("critical", "C_sl"):
+        handles += _limit(sweep, ax, x)
+    handles += mark_as_written(ax, sweep, axis.name, upright) if upright else mark_place(ax, sweep, axis.name)
+    set_title(ax, title(sweep))
+    legend_below(ax, handles)
     return ax
 
 
@@ -77,21 +98,37 @@ def check_drawn(axes: Sequence[Axis]) -> None:
         raise ProblemError(f"{text}; in Python choose a plane, such as result.at(v=83.3)")
 
 
-def _branches(sweep: Sweep, ax: "Axes", x: Float, *, legend: bool = True) -> None:
+def _branches(sweep: Sweep, ax: "Axes", x: Float) -> None:
     """Draw all critical values, and shade what is stable between them."""
-    from matplotlib.collections import PolyCollection
-    from matplotlib.patches import Patch
-
-    columns = columns_of(sweep, to_unit(1.0, shown_unit(sweep)))
+    factor = to_unit(1.0, shown_unit(sweep))
     low, high = _limits(sweep, ax)
-    areas = list(stable_areas(x, columns, low, high))
-    ax.add_collection(PolyCollection(areas, facecolors=STABLE, linewidths=0, antialiaseds=False, zorder=0))
-    draw_lines(ax, curves(x, columns, low, high))
-    handles, _ = ax.get_legend_handles_labels()
-    if areas:
-        handles.append(Patch(color=STABLE, label="stable"))
-    if legend:
-        legend_below(ax, handles=handles)
+    places, columns = _refined(sweep, x, factor)
+    _shade(ax, places, columns, low, high)
+    draw_lines(ax, curves(places, columns, low, high))
+
+
+def _shade(ax: "Axes", x: Float, columns: list[CriticalColumn], low: float, high: float) -> None:
+    """Fill what is stable, and hatch all that is not."""
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+
+    areas = [Path([*points, points[0]], closed=True) for points in stable_areas(x, columns, low, high)]
+    if areas:  # one path: between several, the ground would be seen
+        ax.add_patch(PathPatch(Path.make_compound_path(*areas), label="stable", zorder=0.5, **area(STABLE)))
+    span(ax, low, high, UNSTABLE, vertical=False, label="unstable")
+
+
+def _refined(sweep: Sweep, x: Float, factor: float) -> tuple[Float, list[CriticalColumn]]:
+    """Return where all critical values are known, and which: between the points, too, where their number changes."""
+    columns = columns_of(sweep, factor)
+    between = None if sweep.chart is None else sweep.chart.between
+    if between is None:
+        return x, columns
+    places = np.concatenate([x, between["axis"] * shown_factor(sweep.axes[0].name)])
+    rows = zip(between[sweep.quantity] * factor, between["omega"], between["unstable_roots"], strict=True)
+    columns += [CriticalColumn(*row) for row in rows]
+    order = np.argsort(places, kind="stable")
+    return places[order], [columns[k] for k in order]
 
 
 def _limits(sweep: Sweep, ax: "Axes") -> tuple[float, float]:
@@ -103,8 +140,9 @@ def _limits(sweep: Sweep, ax: "Axes") -> tuple[float, float]:
     elif not found.size:
         low, high = 0.0, 1000.0
     elif found.max() > WIDE * found.min():
-        ax.set_yscale("log")
         low, high = max(found.min() / 2, found.max() / DECADES), found.max() * 2
+        ax.set_ylim(low, high)
+        log_axis(ax, upright=True)
     else:
         low, high = 0.0, 1.15 * found.max()
     ax.set_ylim(low, high)
@@ -115,26 +153,52 @@ def _least(sweep: Sweep, ax: "Axes", x: Float) -> None:
     """Draw the lower end of the stable interval, over all critical values where these are known."""
     y = sweep.main * to_unit(1.0, shown_unit(sweep))
     if sweep.boundary is not None:
-        _branches(sweep.boundary, ax, x, legend=False)
+        _branches(sweep.boundary, ax, axis_values(sweep.boundary.axes[0]))
+        shown = np.where(_jumps(sweep), np.nan, np.maximum(y, ax.get_ylim()[0]))
     else:
         top = 1.15 * np.nanmax(y, initial=1.0)
-        ax.fill_between(x, y, top, color=STABLE, label="stable above the curve", linewidth=0)
         ax.set_ylim(0, top)
-    ax.plot(
-        x,
-        np.maximum(y, ax.get_ylim()[0]),
-        color="black",
-        linewidth=2.2,
-        label=r"$C_\mathrm{sl}$ of the interval chosen",
-    )
-    _mark_none(ax, x, ~np.isfinite(y))
-    legend_below(ax)
+        shown = y
+        look = {**area(UNSTABLE), "zorder": 0}
+        ax.fill_between(x, 0, y, label="unstable under some condition", **look)
+        ax.fill_between(x, y, top, label="stable above the curve", zorder=0, **area(STABLE))
+    _mark(ax, x, ~np.isfinite(y) & sweep.known, UNSTABLE, "stable for none")
+    ax.plot(x, shown, label=r"$C_\mathrm{sl}$ of the interval chosen", **CHOSEN_LINE)
 
 
-def _mark_none(ax: "Axes", x: Float, none: NDArray[np.bool_]) -> None:
-    if none.any():
-        over = ax.get_xaxis_transform()
-        ax.fill_between(x, 0, 1, where=none, transform=over, color=UNSTABLE, label="stable for none", linewidth=0)
+def _jumps(sweep: Sweep) -> Bools:
+    """Return where the value chosen is continued by another one at the next place: there the curve is interrupted."""
+    columns = columns_of(sweep.boundary, 1.0) if sweep.boundary is not None else []
+    out = np.zeros(len(columns), dtype=bool)
+    for k, (left, right) in enumerate(pairwise(columns)):
+        one, two = (int(np.searchsorted(c.values, y * (1 - 1e-6))) if y > 0 else -1
+                    for c, y in ((left, sweep.main[k]), (right, sweep.main[k + 1])))  # fmt: skip
+        out[k] = min(one, two) >= 0 and (one, two) not in partners(left, right)
+    return out
+
+
+def _limit(sweep: Sweep, ax: "Axes", x: Float) -> list[Any]:
+    """Draw what the curve allows, where it lies in the picture."""
+    if sweep.chart is None or sweep.chart.C_su is None:
+        return []
+    y = sweep.chart.C_su * shown_factor("C_s")
+    bottom, top = ax.get_ylim()
+    return ax.plot(x, y, label=LIMIT_TEXT, **LIMIT_LINE) if np.any((y > bottom) & (y < top)) else []
+
+
+def _mark(ax: "Axes", x: Float, where: Bools, colour: str, text: str) -> None:
+    """Fill the places where there is no value with the reason."""
+    if where.any():
+        half = np.diff(x) / 2
+        starts = x - np.concatenate([[0.0], half])
+        stops = x + np.concatenate([half, [0.0]])
+        for k, (first, last) in enumerate(_runs(where)):
+            span(ax, starts[first], stops[last], colour, label="_" if k else text)
+
+
+def _runs(mask: Bools) -> list[tuple[int, int]]:
+    edges = np.flatnonzero(np.diff(mask, prepend=False, append=False)).reshape(-1, 2)
+    return [(int(first), int(last) - 1) for first, last in edges]
 
 
 def _design(sweep: Sweep, ax: "Axes", x: Float) -> None:
@@ -142,43 +206,42 @@ def _design(sweep: Sweep, ax: "Axes", x: Float) -> None:
     factor = to_unit(1.0, shown_unit(sweep))
     low, high, chosen = (sweep.columns[name] * factor for name in ("C_sl", "C_su", "C_s"))
     there = np.isfinite(chosen)
-    ax.fill_between(x, low, high, where=there, color=STABLE, label="stable, and allowed in the curve", linewidth=0)
-    ax.plot(x, low, color=BECOMES["stable"], label=r"$C_\mathrm{sl}$, least stable")
-    ax.plot(x, high, color=BECOMES["unstable"], label=r"$C_\mathrm{su}$, limit of the curve")
-    ax.plot(x, chosen, color="black", linewidth=2.2, label=r"$C_\mathrm{s}$, golden section")
-    ax.set_ylim(bottom=0)
-    if not there.all():
-        ax.fill_between(
-            x, 0, 1, where=~there, transform=ax.get_xaxis_transform(), color=UNKNOWN, label="no design", linewidth=0
-        )
-    legend_below(ax)
+    top = 1.15 * np.nanmax(high, initial=1.0)
+    ax.fill_between(x, 0, low, where=there, label="unstable", **{**area(UNSTABLE), "zorder": 0})
+    ax.fill_between(x, low, high, where=there, label="stable, and allowed in the curve", zorder=0, **area(STABLE))
+    ax.fill_between(x, high, top, where=there, label="beyond the limit of the curve", zorder=0, **area(EXCLUDED))
+    ax.plot(x, low, label=r"$C_\mathrm{sl}$, minimum for stability", color=BEFORE)
+    ax.plot(x, high, label=LIMIT_TEXT, **LIMIT_LINE)
+    ax.plot(x, chosen, label=r"$C_\mathrm{s}$, golden section", **CHOSEN_LINE)
+    ax.set_ylim(0, top)
+    kinds = chart.kinds_of("design", sweep.columns, sweep.known)
+    _mark(ax, x, kinds == chart.NONE, EXCLUDED, "no design")
+    _mark(ax, x, kinds == chart.NEVER, UNSTABLE, r"stable for no $C_\mathrm{s}$")
 
 
 def _margin(sweep: Sweep, ax: "Axes", x: Float) -> None:
     """Draw a margin, or only the verdict, and shade where it is stable."""
-    y = sweep.main.astype(float) - (0.5 if sweep.quantity == "stable" else 0.0)
-    known = set()
-    for start, stop, stable in _stretches(x, y, is_geometric(sweep.axes[0])):
-        label = "_" if stable in known else "stable" if stable else "unstable"
-        known.add(stable)
-        ax.axvspan(start, stop, color=STABLE if stable else UNSTABLE, linewidth=0, label=label)
+    looks = {chart.STABLE: (STABLE, "stable"), chart.UNSTABLE: (UNSTABLE, "unstable")}
+    told = set()
+    for start, stop, kind in (each for each in _stretches(sweep, x) if each[2] in looks):
+        colour, text = looks[kind]
+        span(ax, start, stop, colour, label="_" if kind in told else text)
+        told.add(kind)
     if sweep.quantity == "stable":
         ax.set_yticks([])
+        return
+    ax.plot(x, sweep.main * to_unit(1.0, shown_unit(sweep)), label=LABELS[sweep.quantity], **CHOSEN_LINE)
+    ax.axhline(0, color=LIMIT_LINE["color"], linewidth=0.8)
+
+
+def _stretches(sweep: Sweep, x: Float) -> list[tuple[float, float, int]]:
+    """Return the stretches of one verdict: from one place where it changes to the next."""
+    if sweep.chart is None:
+        kinds, crossings = chart.kinds_of(sweep.quantity, sweep.columns, sweep.known), np.full(x.size - 1, np.nan)
     else:
-        ax.plot(x, y * to_unit(1.0, shown_unit(sweep)), color="black", linewidth=1.8)
-        ax.axhline(0, color="black", linewidth=0.8)
-    legend_below(ax)
-
-
-def _stretches(x: Float, y: Float, geometric: bool) -> Iterator[tuple[float, float, bool]]:
-    """Yield the stretches on which the drawn curve is above zero, and those on which it is not."""
-    u = np.log(x) if geometric else x
-    for start, stop, y_1, y_2 in zip(u, u[1:], y, y[1:], strict=False):
-        if np.isnan(y_1 + y_2):
-            continue
-        ends = [start, stop]
-        if (y_1 > 0) != (y_2 > 0):
-            ends.insert(1, start + (stop - start) * y_1 / (y_1 - y_2))
-        signs = [bool(y_1 > 0), bool(y_2 > 0)] if len(ends) == 3 else [bool(y_1 > 0)]
-        for (a, b), sign in zip(pairwise(np.exp(ends) if geometric else ends), signs, strict=True):
-            yield float(a), float(b), sign
+        kinds, crossings = sweep.chart.kinds, sweep.chart.crossings[0] * shown_factor(sweep.axes[0].name)
+    changes = np.flatnonzero(kinds[1:] != kinds[:-1])
+    middle = np.where(np.isfinite(crossings), crossings, (x[1:] + x[:-1]) / 2)
+    ends = [x[0], *middle[changes], x[-1]]
+    each = [int(kinds[0]), *(int(kinds[k + 1]) for k in changes)]
+    return [(float(start), float(stop), kind) for (start, stop), kind in zip(pairwise(ends), each, strict=True)]

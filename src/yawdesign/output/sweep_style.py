@@ -1,16 +1,16 @@
 """What pictures of sweeps and of designs have in common: colours, words, scales, titles, critical curves."""
 
-import re
-import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.branches import CriticalColumn
-from yawdesign.output.pictures import literal
-from yawdesign.output.style import BECOMES
+from yawdesign.output.pictures import literal, log_axis, wrapped
+from yawdesign.output.regions import Line, chained
+from yawdesign.output.style import AS_WRITTEN, critical_line
 from yawdesign.problem import to_unit
+from yawdesign.problem.quantities import format_number
 from yawdesign.study.axes import ROWS, Axis
 from yawdesign.study.result import Sweep
 
@@ -28,12 +28,13 @@ LABELS = {
     "decay_rate": "least decay rate",
     "damping_ratio": "least damping ratio",
     "critical": r"critical yaw damping $C_\mathrm{s}$",
-    "C_sl": r"least stable yaw damping $C_\mathrm{sl}$",
-    "design": r"yaw damping $C_\mathrm{s}$",
+    "C_sl": r"minimum yaw damping for stability $C_\mathrm{sl}$",
+    "design": r"yaw damping $C_\mathrm{s}$ by the golden section",
     "critical_speed": "critical speed $v$",
     "stable": "",
 }
-SIGNS_BELOW, SIGNS_OF_A_MARK = 112, 9  # how many signs of a legend fit side by side, how many a mark takes
+LIMIT_TEXT = r"$C_\mathrm{su}$, limit of the curve"
+ACROSS, UPRIGHT = 66, 34  # signs of a label in one line
 DECADES = 1000.0  # of a logarithmic scale, below its largest value
 WIDE = 30.0  # ratio of values from which on a logarithmic scale reads better
 
@@ -58,19 +59,29 @@ def title(sweep: Sweep) -> str:
         parts.append(r"$\xi_\mathrm{m}$ held")
     elif "f_m" in names and "xi_m" not in names:
         parts.append(r"$C_\mathrm{m}$ held")
-    return textwrap.fill(", ".join(part for part in parts if part), 90)
+    return ", ".join(part for part in parts if part)
+
+
+def shown_factor(name: str) -> float:
+    """Return by what values of an axis in SI are multiplied to be seen in its unit."""
+    return to_unit(1.0, ROWS[name].unit)
 
 
 def axis_values(axis: Axis) -> Float:
     """Return the values of an axis in the unit in which people see it."""
-    return axis.values * to_unit(1.0, ROWS[axis.name].unit)
+    return axis.values * shown_factor(axis.name)
 
 
-def axis_label(axis: Axis) -> str:
-    """Return the label of an axis."""
+def axis_label(axis: Axis, signs: int = ACROSS) -> str:
+    """Return the label of an axis, in lines of so many signs."""
     row = ROWS[axis.name]
     unit = f" [{row.unit}]" if row.unit != "-" else ""
-    return textwrap.fill(f"{row.meaning} ${row.symbol}${unit}", 70)
+    return wrapped(f"{row.meaning} ${row.symbol}${unit}", signs)
+
+
+def value_label(sweep: Sweep, text: str = "") -> str:
+    """Return the label of the values, for an axis that stands upright."""
+    return wrapped(f"{text or LABELS[sweep.quantity]} [{shown_unit(sweep)}]", UPRIGHT)
 
 
 def is_geometric(axis: Axis) -> bool:
@@ -79,20 +90,10 @@ def is_geometric(axis: Axis) -> bool:
     return bool(x.size > 2 and x[0] > 0 and np.allclose(np.diff(np.log(x)), np.log(x[1] / x[0]), rtol=1e-3))
 
 
-def scale_axis(set_scale: Any, axis: Axis) -> None:
-    """Choose a logarithmic scale for an axis whose values have equal ratios."""
+def scale_axis(ax: "Axes", axis: Axis, *, upright: bool = False) -> None:
+    """Choose a logarithmic scale for an axis, its limits set, whose values have equal ratios."""
     if is_geometric(axis):
-        set_scale("log")
-
-
-def legend_below(ax: "Axes", **options: Any) -> None:
-    """Explain a picture that leaves no room inside, in as many columns as fit below it."""
-    labels = [re.sub(r"[\\${}]|mathrm", "", label) for label in ax.get_legend_handles_labels()[1]]
-    longest = max(map(len, labels), default=0)
-    columns = max(1, min(3, SIGNS_BELOW // (longest + SIGNS_OF_A_MARK)))
-    ax.legend(
-        loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=columns, fontsize="small", frameon=False, **options
-    )
+        log_axis(ax, upright=upright)
 
 
 def columns_of(sweep: Sweep, factor: float) -> list[CriticalColumn]:
@@ -102,13 +103,58 @@ def columns_of(sweep: Sweep, factor: float) -> list[CriticalColumn]:
     return [CriticalColumn(*row) for row in rows]
 
 
+def joined(pieces: list[Line]) -> list[Line]:
+    """Return pieces of curves as whole lines, each to the right."""
+    return chained([piece if piece[0] <= piece[-1] else piece[::-1] for piece in pieces])
+
+
 def draw_lines(ax: "Axes", lines: dict[str, list[Any]], swap: bool = False, label: bool = True) -> None:
     """Draw the pieces of critical curves, coloured by what lies above them."""
     from matplotlib.collections import LineCollection
 
     for kind, pieces in lines.items():
         if pieces:
-            points = [[(y, x) for x, y in piece] for piece in pieces] if swap else pieces
-            look = {"linestyles": "dashed", "linewidths": 1.0} if kind == "neither" else {"linewidths": 1.8}
+            lines_of_kind = joined(pieces)  # dashes go on from piece to piece
+            points = [[(y, x) for x, y in line] for line in lines_of_kind] if swap else lines_of_kind
             text = MEANING[kind] if label else None
-            ax.add_collection(LineCollection(points, colors=BECOMES[kind], label=text, capstyle="round", **look))
+            ax.add_collection(LineCollection(points, label=text, **critical_line(kind)))
+
+
+def mark_as_written(ax: "Axes", sweep: Sweep, across: str, upright: str) -> list[Any]:
+    """Mark what the problem itself has, a point or several speeds, where it lies inside; return it for the legend."""
+    if sweep.chart is None:
+        return []
+    found = [sweep.chart.as_written.get(name, ()) for name in (across, upright)]
+    if not all(found):
+        return []
+    xs, ys = (
+        [value * shown_factor(name) for value in values] for name, values in zip((across, upright), found, strict=True)
+    )
+    points = [(x, y) for x in xs for y in ys]
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    inside = [(x, y) for x, y in points if left <= x <= right and bottom <= y <= top]
+    if not inside:
+        return []
+    told = ", ".join(_told(name, values) for name, values in zip((across, upright), found, strict=True))
+    style = {**AS_WRITTEN, "linestyle": "solid" if len(inside) > 1 else "none"}
+    return ax.plot(*zip(*(inside[0], inside[-1]), strict=True), label=f"as written: {told}", clip_on=False, **style)
+
+
+def mark_place(ax: "Axes", sweep: Sweep, name: str) -> list[Any]:
+    """Mark where on the axis the problem itself is, if it lies inside; return it for the legend."""
+    values = () if sweep.chart is None else sweep.chart.as_written.get(name, ())
+    low, high = ax.get_xlim()
+    shown = [x for x in (value * shown_factor(name) for value in values) if low <= x <= high]
+    if not shown:
+        return []
+    style = {**AS_WRITTEN, "marker": "^", "clip_on": False}
+    place = ax.get_xaxis_transform()
+    return ax.plot(shown, [0.0] * len(shown), transform=place, label=f"as written: {_told(name, values)}", **style)
+
+
+def _told(name: str, values: tuple[float, ...]) -> str:
+    row = ROWS[name]
+    low, high = (format_number(to_unit(x, row.unit), 4) for x in (min(values), max(values)))
+    number = low if low == high else f"{low} ... {high}"
+    symbol = "" if name in ("C_s", "v") else f"${row.symbol}$ = "
+    return f"{symbol}{number} {row.unit.strip('-')}".strip()

@@ -23,6 +23,7 @@ TABLES_BY = {
     "SpectrumCheck": ("yawdesign.output.harmonic_tables", "spectrum_tables"),
     "Modes": ("yawdesign.output.mode_tables", "modes_tables"),
     "FollowedModes": ("yawdesign.output.mode_tables", "followed_tables"),
+    "Reproduction": ("yawdesign.output.reproduction_tables", "reproduction_tables"),
     "Export": ("yawdesign.output.export_tables", "export_tables"),
     "Fmu": ("yawdesign.output.export_tables", "fmu_tables"),
     "StateSpaceModel": ("yawdesign.output.export_tables", "state_space_tables"),

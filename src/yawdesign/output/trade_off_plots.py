@@ -3,7 +3,8 @@
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.damper.curving import RAISING
-from yawdesign.output.pictures import new_axes, under_conditions
+from yawdesign.output.pictures import legend_below, log_axis, new_axes, set_title
+from yawdesign.output.style import BEFORE, CHOSEN, CHOSEN_LINE, EXCLUDED, HALO, LIMIT_LINE, UNSTABLE, span
 from yawdesign.output.sweep_style import SHOWN, WIDE
 from yawdesign.problem import PARAMETERS, ProblemError, to_unit
 
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 FRONT, PANEL = 4.6, 1.45  # heights [inch]
 UNITS = {"decay_rate": ("least decay rate", "1/s", 1.0), "damping_ratio": ("least damping ratio", "%", 100.0)}
 MARKS = (("golden", "D", "golden section, other variables as written"), ("written", "s", "design as written"))
-LINE = "#1f4e9e"
+WITHIN = 1 + 1e-9  # times the limit of the curve: a design at the limit keeps it
 
 
 def draw_trade_off(result: "TradeOff", ax: "Axes | None" = None) -> "Axes":
@@ -36,7 +37,9 @@ def draw_trade_off(result: "TradeOff", ax: "Axes | None" = None) -> "Axes":
     _draw_front(result, ax)
     for panel, name in zip(below, result.variables, strict=False):
         _draw_variable(result, panel, name)
-    (below or [ax])[-1].set_xlabel("rotational resistance $T/(4Qa)$ [-]")
+    last = (below or [ax])[-1]
+    last.set_xlabel("rotational resistance $T/(4Qa)$ [-]")
+    legend_below(last, ax.get_legend_handles_labels()[0])
     if below:
         below[0].get_figure(root=True).align_ylabels()  # type: ignore[union-attr]
     return ax
@@ -54,18 +57,35 @@ def _panels(count: int) -> "tuple[Axes, list[Axes]]":
 
 def _draw_front(result: "TradeOff", ax: "Axes") -> None:
     name, unit, factor = UNITS[result.objective]
-    ax.plot(*_along(result, "margin", factor), "-o", color=LINE, label="largest margin with this resistance", zorder=3)
-    _limit(result, ax, label=f"limit of the curve, {result.limit:.4g}")
-    for key, marker, text in MARKS:
-        if (point := getattr(result, key)) is not None:
-            place = point["rotational_resistance"], point["margin"] * factor
-            ax.plot(*place, marker, color="black", markerfacecolor="white", markersize=8, label=text, zorder=4)
+    label = "largest margin with this resistance"
+    ax.plot(*_along(result, "margin", factor), marker="o", markersize=5, label=label, zorder=3, **CHOSEN_LINE)
+    _mark_points(result, ax, "margin", factor, 9, labels=True)
     ax.set_ylabel(f"{name} [{unit}]")
-    ax.grid(color="#dddddd", linewidth=0.6)
+    low, high = ax.get_ylim()
+    if low < 0:
+        span(ax, low, min(0.0, high), UNSTABLE, vertical=False, label="unstable")
+        ax.set_ylim(low, high)
+    _limit(result, ax, labels=True)
     ends = "" if result.ends_at is None else f": no more margin from {result.ends_at:.4g} on"
-    title = f"Margin and rotational resistance{ends}"
-    ax.set_title(under_conditions(title, result.searched), loc="left", fontsize="medium")
-    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.12), ncols=2, fontsize="small", frameon=False)
+    set_title(ax, f"Margin and rotational resistance{ends}", result.searched)
+
+
+def _mark_points(result: "TradeOff", ax: "Axes", name: str, factor: float, size: float, *, labels: bool) -> None:
+    """Mark the largest margin within the limit, and what stands beside the front."""
+    within = [point for point in result.front if point["rotational_resistance"] <= result.limit * WITHIN]
+    marks = [(within[-1], "*", "largest margin within the limit", CHOSEN, size + 5)] if within else []
+    for key, marker, text in MARKS:
+        if (point := getattr(result, key)) is not None and point[name] is not None:
+            marks.append((point, marker, text, BEFORE, size - 1))
+    for point, marker, text, colour, large in marks:
+        place = point["rotational_resistance"], point[name] * factor
+        look: dict[str, Any] = {
+            "markerfacecolor": HALO,
+            "markeredgewidth": 1.6,
+            "markersize": large,
+            "linestyle": "none",
+        }
+        ax.plot(*place, marker=marker, color=colour, label=text if labels else "_", zorder=4, **look)
 
 
 def _draw_variable(result: "TradeOff", ax: "Axes", name: str) -> None:
@@ -73,19 +93,13 @@ def _draw_variable(result: "TradeOff", ax: "Axes", name: str) -> None:
     unit = SHOWN.get(row.unit, row.unit)
     factor = to_unit(1.0, unit)
     resistance, values = _along(result, name, factor)
-    ax.plot(resistance, values, "-o", color=LINE, markersize=4)
-    _limit(result, ax)
-    for key, marker, _ in MARKS:
-        point = getattr(result, key)
-        if point is not None and point[name] is not None:
-            place = point["rotational_resistance"], point[name] * factor
-            ax.plot(*place, marker, color="black", markerfacecolor="white", markersize=6)
+    ax.plot(resistance, values, marker="o", markersize=4, **CHOSEN_LINE)
+    _mark_points(result, ax, name, factor, 6, labels=False)
     # The resistance is linear in what it rises with.
     if name not in RAISING and min(values) > 0 and max(values) > WIDE / 3 * min(values):
-        ax.set_yscale("log")
-        ax.yaxis.set_minor_formatter("")
+        log_axis(ax, upright=True)
+    _limit(result, ax, labels=False)
     ax.set_ylabel(f"${row.symbol}$" + (f"\n[{unit}]" if unit != "-" else ""))
-    ax.grid(color="#dddddd", linewidth=0.6)
 
 
 def _along(result: "TradeOff", key: str, factor: float) -> tuple[list[float], list[float]]:
@@ -93,5 +107,13 @@ def _along(result: "TradeOff", key: str, factor: float) -> tuple[list[float], li
     return [point["rotational_resistance"] for point in points], [point[key] * factor for point in points]
 
 
-def _limit(result: "TradeOff", ax: "Axes", **label: Any) -> None:
-    ax.axvline(result.limit, color="black", linestyle="dashed", linewidth=1.2, **label)
+def _limit(result: "TradeOff", ax: "Axes", *, labels: bool) -> None:
+    """Draw the limit of the curve, and hatch what is beyond it."""
+    low, high = ax.get_xlim()
+    line = ax.axvline(result.limit, **LIMIT_LINE)
+    if high > result.limit:
+        beyond = span(ax, max(low, result.limit), high, EXCLUDED)
+        beyond.set_label("beyond the limit" if labels else "_")
+    line.set_label(f"limit of the curve, {result.limit:.4g}" if labels else "_")
+    ax.set_xlim(low, high)
+    ax.grid(visible=True)

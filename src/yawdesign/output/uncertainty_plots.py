@@ -1,9 +1,15 @@
 """Pictures of the answer for uncertain parameters."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
-from yawdesign.output.pictures import new_axes, under_conditions
-from yawdesign.output.style import STABLE, UNSTABLE
+import numpy as np
+
+from yawdesign.hunting.arrays import Array
+from yawdesign.output.mark_labels import MarkLabel, draw_labels
+from yawdesign.output.panels import divided
+from yawdesign.output.pictures import legend_below, new_axes, set_title, wrapped
+from yawdesign.output.style import BEFORE, CHOSEN, HALO, LESS, LIMIT, MORE, REST, STABLE, UNSTABLE, span
 from yawdesign.problem import PARAMETERS, ProblemError, to_unit
 from yawdesign.problem.condition import CREEP_FACTOR
 from yawdesign.problem.running import SPEED
@@ -14,13 +20,16 @@ if TYPE_CHECKING:
 
     from yawdesign.study.uncertainty import Uncertainty
 
-OF = ("tornado", "margin", "C_sl")
+OF = ("both", "tornado", "margin", "C_sl")
 UNITS = {"decay_rate": "1/s", "damping_ratio": "%", "C_sl": "kN·s/m"}
-GROWS, FALLS = "#1f4e9e", "#f2a48c"  # apart in grey, too
+NAMES = {"C_sl": r"minimum yaw damping for stability $C_\mathrm{sl}$"}
+BINS, BAR = 30, 0.7  # bars of a distribution, height of a bar of a parameter
+HEIGHT = 6.0  # of a picture with both [inch]
+MARKED = {"5": (0, (1.5, 1.5)), "50": "solid", "95": (0, (1.5, 1.5))}  # percentiles, and how they are drawn
 
 
-def draw_uncertainty(result: "Uncertainty", ax: "Axes | None" = None, *, of: str = "tornado") -> "Axes":
-    """Draw what each uncertain parameter does to the margin, or how margin or C_sl is distributed.
+def draw_uncertainty(result: "Uncertainty", ax: "Axes | None" = None, *, of: str | None = None) -> "Axes":
+    """Draw how the margin or C_sl is distributed, and what each uncertain parameter does to the margin.
 
     Parameters
     ----------
@@ -28,18 +37,33 @@ def draw_uncertainty(result: "Uncertainty", ax: "Axes | None" = None, *, of: str
         Of `yawdesign.uncertainty`.
     ax : matplotlib.axes.Axes, optional
         Where to draw.
-    of : {"tornado", "margin", "C_sl"}
-        The change of the margin for one standard deviation of each parameter to either side, from its gradient; or
-        the cumulative distribution of the margin or of C_sl.
+    of : {"both", "tornado", "margin", "C_sl"}, optional
+        How often the margin or C_sl has which value; the change of the margin for one standard deviation of each
+        parameter to either side, from its gradient; or, if nothing is asked for, both of the margin.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        With the title.
     """
+    of = of or ("both" if _effects(result) else "margin")
     as_choice(of, OF)
-    ax = new_axes(ax)
-    (_tornado if of == "tornado" else _distribution)(result, ax, of)
+    given, ax = ax, new_axes(ax)
+    if of == "both" and given is None:
+        figure: Any = ax.get_figure(root=True)
+        figure.set_size_inches(figure.get_figwidth(), HEIGHT)
+    if of == "both":
+        ax, below = divided(ax, (1.0, 1.0))
+        _tornado(result, below)
+        legend_below(below)
+    marks = _tornado(result, ax) if of == "tornado" else _distribution(result, ax, "C_sl" if of == "C_sl" else "margin")
     value, (low, high) = result.probability_unstable, result.interval
     text = f"between {low:.2g} and {high:.2g}" if value is None else f"{value:.4g} ± {(high - low) / 2:.1g}"
-    ax.set_title(
-        under_conditions(f"Probability of instability: {text}", result.held_under), loc="left", fontsize="medium"
-    )
+    title = f"Probability of instability: {text}"
+    set_title(ax, title, result.held_under)
+    legend_below(ax)
+    ax.get_figure(root=True).draw_without_rendering()  # type: ignore[union-attr]  # lays out, labels find their places
+    set_title(ax, title, result.held_under, pad=draw_labels(ax, marks, 3.0) + 5.0)
     return ax
 
 
@@ -48,34 +72,69 @@ def _symbol(name: str) -> str:
     return f"${rows[name].symbol}$"
 
 
-def _tornado(result: "Uncertainty", ax: "Axes", of: str) -> None:
-    effects = {name: x.margin for name, x in result.effects.items() if x.margin is not None}
+def _effects(result: "Uncertainty") -> dict[str, float]:
+    """Return what each parameter does to the margin, the smallest effect first."""
+    known = {name: x.margin for name, x in result.effects.items() if x.margin is not None}
+    return dict(sorted(known.items(), key=lambda item: abs(item[1])))
+
+
+def _tornado(result: "Uncertainty", ax: "Axes") -> list[MarkLabel]:
+    """Draw the change of the margin for one standard deviation of each parameter to either side."""
+    effects = _effects(result)
     if not effects:
         raise ProblemError("there is nothing to draw: the margin has no derivatives")
-    names = sorted(effects, key=lambda name: abs(effects[name]))
     unit = UNITS[result.objective]
     middle = to_unit(result.margin, unit)
-    for sign, colour, label in ((1, GROWS, "one standard deviation more"), (-1, FALLS, "one standard deviation less")):
-        widths = [sign * to_unit(effects[name], unit) for name in names]
-        ax.barh(range(len(names)), widths, left=middle, color=colour, label=label)
-    ax.axvline(middle, color="black", linewidth=1)
-    ax.set_yticks(range(len(names)), [_symbol(name) for name in names])
-    ax.set_xlabel(f"least {result.objective.replace('_', ' ')} [{unit}], by its gradient at the values as designed")
-    ax.legend(fontsize="small")
-
-
-def _distribution(result: "Uncertainty", ax: "Axes", of: str) -> None:
-    unit = UNITS[result.objective if of == "margin" else of]
-    known = [(to_unit(x, unit), level) for level, x in enumerate(result.quantiles[of]) if x is not None]
-    if not known:
-        raise ProblemError("there is nothing to draw: no C_s is stable for any sample")
-    ax.plot(*zip(*known, strict=True), color=GROWS, linewidth=2)
+    rows = range(len(effects))
+    for sign, colour, hatch, label in (
+        (1, MORE, None, "one standard deviation more"),
+        (-1, LESS, "xxx", "one standard deviation less"),
+    ):
+        widths = [sign * to_unit(effect, unit) for effect in effects.values()]
+        ax.barh(rows, widths, BAR, left=middle, color=colour, hatch=hatch, edgecolor=HALO, linewidth=0.5, label=label)
     low, high = ax.get_xlim()
+    if low < 0:
+        span(ax, low, min(0.0, high), UNSTABLE, label="unstable")
+        ax.set_xlim(low, high)
+    ax.axvline(middle, color=LIMIT, linewidth=1.2)
+    ax.set_yticks(rows, [_symbol(name) for name in effects])
+    ax.set_xlabel(f"least {result.objective.replace('_', ' ')} [{unit}], by its gradient at the values as designed")
+    return [MarkLabel(middle, f"as designed: {middle:.4g} {unit}", LIMIT)]
+
+
+def _distribution(result: "Uncertainty", ax: "Axes", of: str) -> list[MarkLabel]:
+    """Draw how often a quantity has which value; return some percentiles to be written."""
+    unit = UNITS[result.objective if of == "margin" else of]
+    quantiles = [(to_unit(x, unit), level) for level, x in enumerate(result.quantiles[of]) if x is not None]
+    if not quantiles:
+        raise ProblemError("there is nothing to draw: no C_s is stable for any sample")
+    values, levels = zip(*quantiles, strict=True)
+    ends = _ends(values)
+    shares = np.diff(np.interp(ends, values, levels))
+    ax.bar(ends[:-1], shares, np.diff(ends), align="edge", color=REST, edgecolor=BEFORE, linewidth=0.6, zorder=2)
+    low, high = float(ends[0]), float(ends[-1])
     if of == "margin":
-        ax.axvspan(min(low, 0.0), 0, color=UNSTABLE, linewidth=0, label="unstable")
-        ax.axvspan(0, max(high, 0.0), color=STABLE, linewidth=0, label="stable")
-        ax.legend(fontsize="small")
-        ax.set_xlabel(f"least {result.objective.replace('_', ' ')} [{unit}]")
-    else:
-        ax.set_xlabel(rf"least stable yaw damping $C_\mathrm{{sl}}$ [{unit}]")
-    ax.set(xlim=(low, high), ylim=(0, 100), ylabel=f"samples with less, of {result.percentiles_from} [%]")
+        span(ax, min(low, 0.0), 0.0, UNSTABLE, label="unstable")
+        span(ax, 0.0, max(high, 0.0), STABLE, label="stable")
+        low, high = min(low, 0.0), max(high, 0.0)
+    labels = []
+    for level, dashes in MARKED.items():
+        value = result.percentiles[of].get(level)
+        if value is not None:
+            shown = to_unit(value, unit)
+            ax.axvline(shown, color=CHOSEN, linestyle=dashes, linewidth=1.6, zorder=3)
+            labels.append(MarkLabel(shown, f"{level} %: {shown:.3g} {unit}", CHOSEN))
+    name = NAMES.get(of, f"least {result.objective.replace('_', ' ')}")
+    none = 100 - max(levels)
+    beside = f"; stable for no $C_\\mathrm{{s}}$ in {none} %" if none else ""
+    ax.set_xlabel(wrapped(f"{name} [{unit}]{beside}", 66))
+    ax.set(xlim=(low, high), ylabel=f"share of {result.percentiles_from} samples\n[% in each bar]")
+    return labels
+
+
+def _ends(values: Sequence[float]) -> Array:
+    """Return the ends of bars of one width that hold all values."""
+    low, high = min(values), max(values)
+    if high <= low:
+        low, high = low - 0.5, high + 0.5
+    return np.linspace(low, high, BINS + 1)

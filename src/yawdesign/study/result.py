@@ -18,6 +18,7 @@ from yawdesign.problem.diagnostics import unknown_key
 from yawdesign.problem.result import plain
 from yawdesign.problem.table import field_name
 from yawdesign.study.axes import shape
+from yawdesign.study.chart import Chart, charted
 from yawdesign.study.kept_file import KeptFile
 from yawdesign.study.labelled_data import MAIN, LabelledData
 from yawdesign.study.request import QUANTITIES, UNITS, Request
@@ -32,11 +33,15 @@ class Sweep(LabelledData):
     ----------
     boundary : Sweep or None
         All critical values over the other axis of a map over C_s, and over the axis of ``C_sl`` and ``design``.
+    chart : Chart or None
+        What a picture shows beside the values: where the verdict changes between the points, the curve's limit, what
+        the problem itself has.
     request : Request
         What was asked for, with the problem.
     """
 
     boundary: "Sweep | None"
+    chart: Chart | None
     request: Request
 
     @property
@@ -103,9 +108,18 @@ class Sweep(LabelledData):
         columns = {n: np.take(x, nearest, axis=k) for n, x in self.columns.items()}
         axes = (*self.axes[:k], *self.axes[k + 1 :])
         at = {**self.provenance.get("at", {}), self.axes[k].name: float(self.axes[k].values[nearest])}
-        return replace(
-            self, axes=axes, columns=columns, **masks, boundary=None, provenance={**self.provenance, "at": at}
+        plane = replace(
+            self,
+            axes=axes,
+            columns=columns,
+            **masks,
+            boundary=None,
+            chart=None,
+            provenance={**self.provenance, "at": at},
         )
+        if self.chart is not None and self.axes[k].values.size == 1:
+            return replace(plane, chart=self.chart.without(k))
+        return replace(plane, chart=charted(self.request, axes, columns, plane.known, at))
 
     def keep(self, path: str | PathLike[str]) -> None:
         """Write what is finished, of an interrupted sweep say, for ``resume=path``.
@@ -176,6 +190,7 @@ def gathered(asked: Request, store: Store, seconds: float, boundary: Sweep | Non
         unverified=store.unverified.reshape(grid),
         provenance=_provenance(asked, store, seconds),
         boundary=boundary,
+        chart=None,
         request=asked,
     )
 

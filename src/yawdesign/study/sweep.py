@@ -4,6 +4,7 @@ import time
 import warnings
 from collections.abc import Iterable
 from contextlib import suppress
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from yawdesign.problem.progress import between
 from yawdesign.problem.running import CURVE
 from yawdesign.problem.stopping import held, request_to_stop
 from yawdesign.study.axes import Axis
+from yawdesign.study.chart import charted
 from yawdesign.study.executors import fill
 from yawdesign.study.kept_file import KeptFile
 from yawdesign.study.request import Request, request
@@ -159,6 +161,8 @@ def answered(
             failed, boundary = _boundary(asked, executor, between(progress, LINES_FROM, 1.0))
         failed = request_to_stop() or failed
         result = gathered(asked, store, time.perf_counter() - begin, boundary)
+        if failed is None:
+            result = _charted(result)
         if failed is not None:
             stopped = isinstance(failed, KeyboardInterrupt)
             raise IncompleteSweepError(_reason(store, failed), _remedy(store, kept), result, stopped) from failed
@@ -243,6 +247,15 @@ def _boundary(asked: Request, executor: Any, progress: Progress) -> tuple[BaseEx
             return error.__cause__, None
         _say_without_lines(error)
         return None, None
+
+
+def _charted(result: Sweep) -> Sweep:
+    """Return a sweep with what its picture shows beside the values; whatever goes wrong here, the sweep is finished."""
+    try:
+        return replace(result, chart=charted(result.request, result.axes, result.columns, result.known, {}))
+    except Exception as error:  # noqa: BLE001 - no fault may cost the points that are finished
+        _say_without_lines(error)
+        return result
 
 
 def _say_without_lines(error: BaseException) -> None:

@@ -64,7 +64,7 @@ class StationaryResponse(Result):
 def stationary_response(
     problem: Problem, track: Any = "german-low", *, speed: Any = None, condition: Asked = AS_WRITTEN
 ) -> StationaryResponse:
-    """Return the stationary root mean square of every response, by integrating |H|^2 S over the band.
+    """Return the stationary root mean square of every response, an integral over the spectrum.
 
     Parameters
     ----------
