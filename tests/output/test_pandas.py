@@ -22,6 +22,7 @@ FIRST = {
     "StationaryResponse": "rms",
     "SpectrumCheck": "densities",
     "Modes": "modes",
+    "Reproduction": "rows",
     "FollowedModes": "modes",
 }
 
