@@ -1,53 +1,65 @@
-"""Draws Figures 2, 4 and 5 of the paper with this package, and pictures of its own, into docs/figures."""
+"""Draws Figures 2 to 5 of the paper with this package, and pictures of its own, into docs/figures."""
 
 from pathlib import Path
 
-from matplotlib.figure import Figure
+import numpy as np
+from PIL import Image
 
 import yawdesign as yd
+from yawdesign.output.paper_pictures import drawing_of
+from yawdesign.output.pictures import write_picture
 
-FOLDER = Path(__file__).parents[1] / "docs" / "figures"
-SHOWN_TIME = 10.0  # [s]
-
-
-def two_panels(result, names, title, file, start=0.0):
-    """Draw two responses of the frame below each other, as the paper does."""
-    figure = Figure(figsize=(7.0, 5.2), layout="constrained")
-    for ax, name, letter in zip(figure.subplots(2, 1, sharex=True), names, "ab", strict=True):
-        yd.plot(result, ax, response=name, until=start + SHOWN_TIME)
-        ax.get_legend().remove()
-        ax.set_ylabel(ax.get_ylabel().replace(" of the frame", ""))
-        ax.set_title(f"({letter})", loc="left", fontsize="medium")
-        ax.grid(alpha=0.25)
-    figure.axes[0].set_xlabel("")
-    figure.suptitle(title, fontsize="medium")
-    figure.savefig(FOLDER / file, dpi=110)
+ROOT = Path(__file__).parents[1]
+FOLDER = ROOT / "docs" / "figures"
+COLOURS = 96
 
 
-def save(file, result):
+def write(axes, file):
+    """Write a picture with no more colours than it needs."""
+    write_picture(axes, FOLDER / file, replace=True)
+    Image.open(FOLDER / file).convert("RGB").quantize(COLOURS).save(FOLDER / file, optimize=True)
+
+
+def save(file, result, **options):
     """Save the picture of a result."""
-    yd.plot(result).figure.savefig(FOLDER / file, dpi=110)
+    write(yd.plot(result, **options), file)
+
+
+def draw_runs():
+    """Draw runs over a track, and what the paper shows of them."""
+    for name, (title, draw) in drawing_of(yd.reproduce().drawn).items():
+        write(draw(title), f"{name}.png")
+    table1 = yd.table1(equations="as-printed")
+    design = table1.replace(C_s="1 046 770 N s/m")
+    run = yd.simulate(design, "german-low", speed="300 km/h", start="rest")
+    save("long-run.png", run)
+    weak = table1.replace(C_s="50 kN s/m")
+    save("unstable.png", yd.simulate(weak, speed=["250 km/h", "300 km/h"], start="rest", duration="12 s"))
+    save("frequency-response.png", yd.frequency_response(design, np.geomspace(200, 5, 370)))
+    save("spectrum.png", yd.spectrum_check("german-low"))
+    save("damper.png", run.damper)
+    save("stationary.png", yd.stationary_response(design, speed="300 km/h"))
+
+
+def draw_modes():
+    """Draw modes of one bogie, and of a vehicle with a car body."""
+    bogie, vehicle = yd.table1(), yd.load(ROOT / "problems" / "vehicle.yaml")
+    speeds = np.linspace(50, 450, 120) / 3.6
+    save("stability.png", yd.stability(bogie.replace(requirements={"damping_ratio": "5 %"})))
+    save("mode-shape.png", yd.modes(bogie))
+    save("vehicle-sway.png", yd.modes(vehicle), mode="lower sway")
+    save("root-locus.png", yd.follow_modes(bogie, C_s=np.geomspace(1e4, 5e6, 200)))
+    save("damping-over-speed.png", yd.follow_modes(bogie, v=speeds), of="damping_ratio", target=0.05)
+    followed = yd.follow_modes(vehicle, v=speeds)
+    save("vehicle-damping-over-speed.png", followed, of="damping_ratio", target=0.05)
+    save("vehicle-root-locus.png", followed, target=0.05)
 
 
 def main():
     """Draw everything."""
     FOLDER.mkdir(parents=True, exist_ok=True)
-    table1 = yd.table1(equations="as-printed")
-    accelerations = ("y_b_acceleration", "phi_b_acceleration")
-    sinusoid = yd.simulate(table1, yd.Sinusoid("1 m"), speed="250 km/h", start="rest", duration="10 s")
-    title = "Fig. 2: y_a = sin 6t m under the front wheelset, 250 km/h, C_s = 1 000 kN·s/m"
-    two_panels(sinusoid, accelerations, title, "fig2.png")
-    design = table1.replace(C_s="1 046 770 N s/m")
-    for number, kmh in ((4, 250), (5, 300)):
-        run = yd.simulate(design, "german-low", speed=f"{kmh} km/h", start="rest")
-        title = f"Fig. {number}: {kmh} km/h, C_s = 1 046.77 kN·s/m, German low disturbance (0.3 to 40 Hz)"
-        two_panels(run, ("y_b", "phi_b"), title, f"fig{number}.png")
-    wavelengths = [200 / 1.01**k for k in range(370)]
-    save("frequency-response.png", yd.frequency_response(design, wavelengths))
-    save("spectrum.png", yd.spectrum_check("german-low"))
-    save("damper.png", yd.damper_component(design))
-    weak = table1.replace(C_s="50 kN s/m")
-    save("unstable.png", yd.simulate(weak, speed=["250 km/h", "300 km/h"], start="rest", duration="12 s"))
+    draw_runs()
+    draw_modes()
 
 
 if __name__ == "__main__":

@@ -7,8 +7,6 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
 import yawdesign as yd
 from yawdesign.problem.parameters import CarBody
 
@@ -20,15 +18,11 @@ CAR_BODY = CarBody(M_c=34500, J_c=1.521e6, I_c=124304, l_c=9.5, h_s=0.852, h_t=0
 def sweeps():
     """Return what is drawn, by the name of its picture."""
     table1 = yd.table1(equations="as-printed")
-    # Closer together where the motors move at the frequency of the hunting motion and the curve folds.
-    f_m = np.unique(np.concatenate([np.linspace(1, 8, 281), np.linspace(3.2, 3.6, 161), np.linspace(3.22, 3.24, 41)]))
     standing = yd.table1().replace(lambda_=0.05, C_s="1046.77 kN s/m")
     moving = replace(standing, car_body=CAR_BODY)
     chart = {"C_s": "10 kN s/m:10 MN s/m:60:log", "v": "150 km/h:450 km/h:60"}
     return {
-        "fig3a-damping-held": yd.sweep(table1, of="critical", f_m=f_m),
-        "fig3a-ratio-held": yd.sweep(table1, of="critical", f_m=f_m, hold="xi_m"),
-        "fig3b": yd.sweep(table1, of="critical", xi_m="0.02:1:491"),
+        **{name: curves for name, curves in yd.reproduce().drawn.items() if name.startswith("fig3")},
         "chart": yd.sweep(table1, of="stable", C_s="10 kN s/m:10 MN s/m:300:log", v="200 km/h:500 km/h:300"),
         "least-damping": yd.sweep(table1, of="C_sl", f_m="1:8:300", v="150 km/h:450 km/h:300"),
         "chart-standing": yd.sweep(standing, of="stable", **chart),

@@ -221,6 +221,22 @@ def test_export(answered, independent, problem, tmp_path):
     assert all(f'"{name}"' in manifest for name in independent.equations(problem.bogie.kind, p).names)
 
 
+@pytest.mark.slow
+def test_reproduce(spectrum, kind, tmp_path):
+    """It has no problem file: it is about Table I, whose boundary of stability is that of the independent matrix."""
+    if kind != "power":
+        pytest.skip("the paper has no such vehicle")
+    done = CliRunner().invoke(app, ["reproduce", "--to", str(tmp_path / "paper"), "--json"])
+    assert done.exit_code == 0, done.output
+    rows = [x for x in json.loads(done.stdout)["rows"] if x["what"].startswith("C_sl, ")]
+    (C_sl,) = [x["computed"] for x in rows if x["equations"] == "reciprocal"]
+    assert abs(spectrum(C_s=C_sl).real.max()) < 1e-6
+    assert (tmp_path / "paper" / "reproduction.html").is_file()
+    changed = CliRunner().invoke(app, ["reproduce", "--set", "M_b=7300 kg"])
+    assert changed.exit_code == 1, changed.output
+    assert "M_b is 7300 here" in changed.stdout
+
+
 @pytest.mark.parametrize("own", ["power", "trailer"])
 def test_new(own, tmp_path):
     path = tmp_path / "problem.yaml"

@@ -68,7 +68,7 @@ def test_a_class_name_stands_for_one_class():
     assert not [name for name, count in names.items() if count > 1]
 
 
-@pytest.mark.parametrize(("home", "name"), [("output.plots", "DRAWN_BY"), ("cli.answering", "TABLES_BY")])
+@pytest.mark.parametrize(("home", "name"), [("output.plots", "DRAWN_BY"), ("output.tables_by_result", "TABLES_BY")])
 def test_what_shows_a_result_is_there(home, name):
     for kind, (module, function) in getattr(importlib.import_module(f"yawdesign.{home}"), name).items():
         assert inspect.isclass(getattr(yawdesign, kind))

@@ -27,11 +27,20 @@ def __getattr__(name: str) -> Any:
 def _public(name: str) -> Any:
     """Return what has a public name; a function looks at its arguments before it begins."""
     found = getattr(import_module(_HOME[name]), name)
+    import_module("yawdesign.problem.notebook_view").NotebookView.made_by = _html
     if not isinstance(found, FunctionType):
         return found
     function: Any = import_module("yawdesign.problem.arguments").checked(found)
+    if "progress" in found.__annotations__:
+        function = import_module("yawdesign.output.progress_shown").with_bar_in_notebooks(function)
     function.__module__, function.__qualname__ = __name__, name  # where pickle finds it
     return function
+
+
+def _html(shown: Any) -> str:
+    """Return the tables of a problem or of a result, for a notebook."""
+    made: str = import_module("yawdesign.output.notebooks").html(shown)
+    return made
 
 
 def __dir__() -> list[str]:

@@ -22,6 +22,8 @@ from yawdesign.hunting.stability import stability as stability
 from yawdesign.hunting.verdict import Stability as Stability
 from yawdesign.output.animation import animate as animate
 from yawdesign.output.plots import plot as plot
+from yawdesign.output.report.report import report as report
+from yawdesign.output.reproduction_folder import reproduce as reproduce
 from yawdesign.problem import PARAMETERS as PARAMETERS
 from yawdesign.problem import Bogie as Bogie
 from yawdesign.problem import CarBody as CarBody
@@ -61,6 +63,7 @@ from yawdesign.response.track.tracks import Band as Band
 from yawdesign.response.track.tracks import Harmonic as Harmonic
 from yawdesign.response.track.tracks import RandomTrack as RandomTrack
 from yawdesign.response.track.tracks import Sinusoid as Sinusoid
+from yawdesign.study.reproduction import Reproduction as Reproduction
 from yawdesign.study.result import Sweep as Sweep
 from yawdesign.study.sweep import IncompleteSweepError as IncompleteSweepError
 from yawdesign.study.sweep import sweep as sweep

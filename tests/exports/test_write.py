@@ -320,7 +320,7 @@ def test_foreign_files_are_never_touched(tmp_path):
     (to / "state_space.mat").write_text("mine too")
     refused = run("--to", to, "--only", "dynamic_stiffness,mat", "--force")
     assert refused.exit_code == 2
-    assert "no export wrote: state_space.mat" in refused.stderr
+    assert "no `yawdesign export` wrote: state_space.mat" in refused.stderr
     assert (to / "state_space.mat").read_text() == "mine too"
     assert not any(p.name.startswith(".") for p in (*to.iterdir(), *tmp_path.iterdir()))
 

@@ -35,9 +35,9 @@ def test_reference_bogies(case, vehicle_of_case):
 def test_roots_closer_than_the_digits_are_refused():
     gap = Fraction(1, 10**40)
     with localcontext(prec=20), pytest.raises(ArithmeticError):
-        list(exact._isolated(exact._decimals(product([(-1, 1), (-1 - gap, 1)])), 20))
+        list(exact.isolated(exact.sturm_chain(exact.decimals(product([(-1, 1), (-1 - gap, 1)])), 20)))
     with localcontext(prec=200):
-        assert len(list(exact._isolated(exact._decimals(product([(-1, 1), (-1 - gap, 1)])), 200))) == 2
+        assert len(list(exact.isolated(exact.sturm_chain(exact.decimals(product([(-1, 1), (-1 - gap, 1)])), 200)))) == 2
 
 
 @pytest.mark.parametrize(
@@ -46,10 +46,11 @@ def test_roots_closer_than_the_digits_are_refused():
 )
 def test_every_positive_root_is_isolated_once(roots, positive):
     with localcontext(prec=100):
-        F = exact._decimals(product([(-Fraction(root), 1) for root in roots]))
-        found = list(exact._isolated(F, 100))
+        F = exact.decimals(product([(-Fraction(root), 1) for root in roots]))
+        chain = exact.sturm_chain(F, 100)
+        found = list(exact.isolated(chain))
         assert len(found) == positive
-        refined = sorted(exact._refined(chain[0], low, high, 100) for chain, low, high in found)
+        refined = sorted(exact._refined(chain[0], low, high, 100) for low, high in found)
     assert [float(x) for x in refined] == pytest.approx(sorted(float(x) for x in roots if x > 0), rel=1e-15)
 
 

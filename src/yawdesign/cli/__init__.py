@@ -11,6 +11,8 @@ from yawdesign.cli.choices import choose
 from yawdesign.cli.designs import critical_speed, design, optimise, stability
 from yawdesign.cli.distributions import uncertainty
 from yawdesign.cli.files import check, export, new, schema
+from yawdesign.cli.reports import report
+from yawdesign.cli.reproductions import reproduce
 from yawdesign.cli.responses import modes, simulate
 from yawdesign.cli.sweeps import sweep
 from yawdesign.cli.trade_offs import trade_off
@@ -24,7 +26,7 @@ app = typer.Typer(
 )
 COMMANDS = (
     *(stability, critical_speed, design, optimise, choose, trade_off, uncertainty),
-    *(sweep, simulate, modes, export, new, check, schema),
+    *(sweep, simulate, modes, report, reproduce, export, new, check, schema),
 )
 for command in COMMANDS:
     app.command()(command)

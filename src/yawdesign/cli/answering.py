@@ -2,10 +2,10 @@
 
 import json
 import logging
+import sys
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
-from importlib import import_module
+from contextlib import AbstractContextManager, contextmanager
 from signal import SIGINT
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -16,26 +16,22 @@ from yawdesign.output.streams import ANSWER, tell, write_answer
 if TYPE_CHECKING:
     from yawdesign.problem import Problem
     from yawdesign.problem.arguments import Progress
+    from yawdesign.problem.reader import Report
 
 DONE, NOTHING_FEASIBLE, BAD_INPUT, SOLVER_FAILED, STOPPED = 0, 1, 2, 3, 128  # 128 and the number of the signal
 
-# What makes the tables of which kind of result, as module and function.
-TABLES_BY = {
-    "Stability": ("yawdesign.output.tables", "stability_tables"),
-    "CriticalSpeeds": ("yawdesign.output.critical_speed_tables", "critical_speed_tables"),
-    "ForwardDesign": ("yawdesign.output.tables", "design_tables"),
-    "Optimum": ("yawdesign.output.optimum_tables", "optimum_tables"),
-    "Choice": ("yawdesign.output.choice_tables", "choice_tables"),
-    "TradeOff": ("yawdesign.output.trade_off_tables", "trade_off_tables"),
-    "Sweep": ("yawdesign.output.sweep_tables", "sweep_tables"),
-    "Uncertainty": ("yawdesign.output.uncertainty_tables", "uncertainty_tables"),
-    "Simulation": ("yawdesign.output.response_tables", "simulation_tables"),
-    "Modes": ("yawdesign.output.mode_tables", "modes_tables"),
-    "FollowedModes": ("yawdesign.output.mode_tables", "followed_tables"),
-    "Export": ("yawdesign.output.tables", "export_tables"),
-}
-
-ProblemFile = Annotated[str, typer.Argument(metavar="PROBLEM.YAML", help="The problem file.", show_default=False)]
+ProblemFile = Annotated[
+    str, typer.Argument(metavar="PROBLEM.YAML", help="The problem file; - for standard input.", show_default=False)
+]
+Changes = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="NAME=VALUE",
+        help="A value in place of the file's, again and again: C_s='800 kN s/m', speed='280 km/h', "
+        "conditions.load.tare.W='120 kN'.",
+    ),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the result as JSON, in SI units.")]
 Jobs = Annotated[int, typer.Option(min=1, help="Number of processes.")]
 Dask = Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")]
@@ -111,32 +107,47 @@ def warnings_told(kind: type[Warning] = RuntimeWarning) -> Iterator[None]:
         yield
 
 
-@contextmanager
-def progress_shown() -> "Iterator[Progress]":
-    """Show what is going on on standard error, if a person is looking."""
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+def progress_shown() -> "AbstractContextManager[Progress]":
+    """Show what is going on on standard error."""
+    from yawdesign.output.progress_shown import progress_on_stderr
 
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda text, part: None
-        return
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task("starting", total=1.0)
-        yield lambda text, part: bar.update(task, description=text, completed=part)
+    return progress_on_stderr()
 
 
-def read_problem(path: str) -> "Problem":
-    """Return the problem of a file; warnings go to standard error."""
-    from yawdesign.problem import ProblemError, read
+def read_problem(path: str, changes: list[str] | None = None) -> "Problem":
+    """Return the problem of a file, with what --set says in it; warnings go to standard error."""
+    from yawdesign.problem import ProblemError
 
-    problem, diagnostics = read(path)
+    problem, diagnostics = report_of(path, changes)
     if problem is None:
         raise ProblemError(diagnostics)
     for diagnostic in diagnostics:
         tell(diagnostic.render())
     return problem
+
+
+def report_of(path: str, changes: list[str] | None) -> "Report":
+    """Return the problem of a file, or none, and everything that was found in it and in what --set says."""
+    from yawdesign.problem import read, read_stream
+    from yawdesign.problem.changes import NewValue, written_value
+    from yawdesign.problem.diagnostics import Mistakes
+
+    mistakes, values = Mistakes(), list[NewValue]()
+    for text in changes or ():
+        with mistakes.under(""):
+            values.append(written_value(text))
+    if path == "-":
+        if sys.stdin.isatty():
+            tell("reading the problem from the keyboard: end it with Ctrl-D on a line of its own")
+        problem, diagnostics = read_stream(sys.stdin.buffer, name_of(path), values)
+    else:
+        problem, diagnostics = read(path, values)
+    return None if mistakes.found else problem, (*mistakes.found, *diagnostics)
+
+
+def name_of(path: str) -> str:
+    """Return what messages call a file."""
+    return "<stdin>" if path == "-" else path
 
 
 def show(result: Any, as_json: bool, indent: int | None = 2) -> None:
@@ -145,6 +156,6 @@ def show(result: Any, as_json: bool, indent: int | None = 2) -> None:
         write_answer(json.dumps(result.to_dict(), indent=indent, allow_nan=False) + "\n")
         return
     from yawdesign.output.tables import rendered
+    from yawdesign.output.tables_by_result import tables_of
 
-    home, function = TABLES_BY[type(result).__name__]
-    write_answer(rendered(getattr(import_module(home), function)(result)))
+    write_answer(rendered(tables_of(result)))

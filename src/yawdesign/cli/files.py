@@ -2,15 +2,19 @@
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from yawdesign.cli.answering import (
+    BAD_INPUT,
     AsJson,
+    Changes,
     ProblemFile,
     mistakes_told,
+    name_of,
     read_problem,
+    report_of,
     show,
 )
 from yawdesign.cli.asked_condition import AskedCondition, asked_condition, tell_condition
@@ -20,6 +24,7 @@ from yawdesign.output.streams import tell, write_answer
 def export(
     file: ProblemFile,
     to: Annotated[str, typer.Option(metavar="DIR", help="Folder to write; new or empty.", show_default=False)],
+    changes: Changes = None,
     inputs: Annotated[
         str | None, typer.Option(metavar="C_s,K_m,v", help="Parameters that stay inputs; all, if not given.")
     ] = None,
@@ -36,7 +41,7 @@ def export(
 ) -> None:
     """Write the model as functions for C, MATLAB and CasADi, with a manifest of their inputs and outputs."""
     with mistakes_told():
-        under, problem = asked_condition(condition), read_problem(file)
+        under, problem = asked_condition(condition), read_problem(file, changes)
         from yawdesign.exports.write import export as write
 
         result = write(
@@ -49,7 +54,7 @@ def export(
 
 
 def new(
-    file: Annotated[str, typer.Argument(help="The file to write.")] = "problem.yaml",
+    file: Annotated[str, typer.Argument(help="The file to write; .xlsx for a workbook.")] = "problem.yaml",
     kind: Annotated[str, typer.Option(help="power or trailer.")] = "power",
     car_body: Annotated[bool, typer.Option("--car-body", help="With a car body on two such bogies.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
@@ -57,7 +62,10 @@ def new(
     """Write a commented problem file to start from, and beside it the schema that editors use."""
     from yawdesign.output.targets import Target, checked_targets
     from yawdesign.problem import SCHEMA_FILE, ProblemError, starter
+    from yawdesign.problem.problem_workbook import starter_sheets
     from yawdesign.problem.whole_files import write_whole
+    from yawdesign.problem.workbook import is_workbook
+    from yawdesign.problem.workbook_writing import write_workbook
 
     with mistakes_told():
         if kind not in ("power", "trailer"):
@@ -66,6 +74,10 @@ def new(
         if path.name == SCHEMA_FILE:
             raise ProblemError(f"{file}: the schema is written under this name beside the problem: choose another name")
         checked_targets([Target("", file, replaced=force)], [])
+        if is_workbook(file):
+            write_workbook(path, starter_sheets(kind, car_body=car_body), replace=force)
+            write_answer(f"wrote {file}; next: yawdesign optimise {file}\n")
+            return
         write_whole(path, starter(kind, car_body=car_body).encode(), replace=force)
         schema = path.with_name(SCHEMA_FILE)
         beside = f" and {schema}" if path.is_file() and _write_schema(schema, force) else ""
@@ -85,11 +97,20 @@ def _write_schema(path: Path, force: bool) -> bool:
     return False
 
 
-def check(file: ProblemFile) -> None:
+def check(file: ProblemFile, changes: Changes = None, as_json: AsJson = False) -> None:
     """List every mistake of a problem file, and doubtful values."""
     with mistakes_told():
-        read_problem(file)
-        write_answer(f"{file}: no errors\n")
+        if not as_json:
+            read_problem(file, changes)
+            write_answer(f"{name_of(file)}: no errors\n")
+            return
+        found = {"error": list[dict[str, Any]](), "warning": list[dict[str, Any]]()}
+        for each in report_of(file, changes)[1]:
+            found[each.severity].append(each.to_dict())
+        answer = {"file": name_of(file), "errors": found["error"], "warnings": found["warning"]}
+        write_answer(json.dumps(answer, indent=2) + "\n")
+    if found["error"]:
+        raise typer.Exit(BAD_INPUT)
 
 
 def schema() -> None:

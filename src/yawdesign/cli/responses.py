@@ -6,6 +6,7 @@ import typer
 
 from yawdesign.cli.answering import (
     AsJson,
+    Changes,
     Force,
     ProblemFile,
     ended,
@@ -15,6 +16,7 @@ from yawdesign.cli.answering import (
     show,
 )
 from yawdesign.cli.asked_condition import AskedCondition, asked_condition, tell_condition
+from yawdesign.cli.pictures import tell_written
 
 if TYPE_CHECKING:
     from yawdesign.problem import Problem
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 
 def simulate(
     file: ProblemFile,
+    changes: Changes = None,
     as_json: AsJson = False,
     track: Annotated[
         str,
@@ -63,7 +66,7 @@ def simulate(
         targets = (*tables, Target("--plot", plot, pictures.PICTURES, force))
         to_csv, to_npz, to_plot = checked_targets(targets, [file, track])
         pictures.check_pictures(to_plot)
-        under, problem = asked_condition(condition), read_problem(file)
+        under, problem = asked_condition(condition), read_problem(file, changes)
         _check_response(problem, response, plot)
         with progress_shown() as progress:
             from yawdesign.response.run.simulate import simulate as run
@@ -89,6 +92,7 @@ def simulate(
             histories.write_csv(result, to_csv, replace=force)
         if to_npz:
             histories.write_npz(result, to_npz, replace=force)
+        tell_written(to_plot, to_csv, to_npz)
         tell_condition(problem, result)
         show(result, as_json)
     raise ended(checked=result.checked, feasible=result.settles)
@@ -113,6 +117,7 @@ def _check_response(problem: "Problem", response: list[str] | None, plot: str | 
 
 def modes(
     file: ProblemFile,
+    changes: Changes = None,
     over: Annotated[
         str, typer.Option(metavar="NAME=LOW:HIGH:N[:log]", help="Follow the modes, such as 'v=50 km/h:450 km/h:80'.")
     ] = "",
@@ -137,7 +142,7 @@ def modes(
         to_plot, to_animate = checked_targets(drawn, [file])
         pictures.check_pictures(to_plot, to_animate)
         _check_modes(over=over, plot=plot, of=of, animate=animate, to=to)
-        under, problem = asked_condition(condition), read_problem(file)
+        under, problem = asked_condition(condition), read_problem(file, changes)
         if over:
             from yawdesign.response.modes.followed_modes import follow_modes
 
@@ -147,15 +152,22 @@ def modes(
 
             result = all_modes(problem, condition=under)
         if to_plot:
-            options: dict[str, Any] = {"of": of or "root_locus"} if over else {"mode": animate or None}
+            along = {"of": of or "root_locus", "target": _required_damping(problem)}
+            options: dict[str, Any] = along if over else {"mode": animate or None}
             pictures.write_picture(plots.plot(result, **options), to_plot, replace=force)
         if to_animate:
             from yawdesign.output.animation import animate as write_animation
 
             write_animation(result, to_animate, mode=animate or None, replace=force)
+        tell_written(to_plot, to_animate)
         tell_condition(problem, result)
         show(result, as_json)
     raise ended(checked=result.checked, feasible=bool(over) or result.stable)
+
+
+def _required_damping(problem: "Problem") -> float | None:
+    """Return the damping ratio that a problem requires without faults [-]."""
+    return next((one.wanted for one in problem.requirements if one.name == "damping_ratio"), None)
 
 
 def _check_modes(*, over: str, plot: str | None, of: str, animate: str, to: str | None) -> None:

@@ -6,6 +6,7 @@ import typer
 
 from yawdesign.cli.answering import (
     AsJson,
+    Changes,
     Force,
     ProblemFile,
     code_of,
@@ -16,6 +17,8 @@ from yawdesign.cli.answering import (
     show,
     warnings_told,
 )
+from yawdesign.cli.pictures import Plot, tell_written
+from yawdesign.cli.workbooks import Xlsx, checked_workbook, write_result
 from yawdesign.output.streams import tell
 
 
@@ -24,6 +27,7 @@ def sweep(
     over: Annotated[
         list[str], typer.Option(metavar="NAME=LOW:HIGH:N[:log]", help="An axis; one to three.", show_default=False)
     ],
+    changes: Changes = None,
     of: Annotated[
         str,
         typer.Option(help="stable, decay_rate, damping_ratio, margin, critical, C_sl, design or critical_speed."),
@@ -31,7 +35,8 @@ def sweep(
     hold: Annotated[str | None, typer.Option(help="C_m (default) or xi_m: what stays when f_m changes.")] = None,
     csv: Annotated[str | None, typer.Option(help="Write a table.")] = None,
     npz: Annotated[str | None, typer.Option(help="Write arrays for NumPy.")] = None,
-    plot: Annotated[str | None, typer.Option(help="Draw a picture: .png, .pdf or .svg.")] = None,
+    plot: Plot = None,
+    xlsx: Xlsx = None,
     jobs: Annotated[int, typer.Option(min=1, help="Number of processes.")] = 1,
     dask: Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")] = None,
     resume: Annotated[str | None, typer.Option(help="File that keeps unfinished work, and goes on from it.")] = None,
@@ -40,7 +45,7 @@ def sweep(
 ) -> None:
     """Answer one question at every point of a grid of parameters: curves, maps, stability charts."""
     with mistakes_told():
-        problem = read_problem(file)
+        problem = read_problem(file, changes)
         from yawdesign.output.sweep_files import Outputs, RescuedError
         from yawdesign.problem.stopping import held, let_through
         from yawdesign.study.executors import workers
@@ -49,12 +54,15 @@ def sweep(
 
         asked = request(problem, of, [(name, values) for name, _, values in (x.partition("=") for x in over)], hold)
         outputs = Outputs.checked(file, asked.axes, csv=csv, npz=npz, plot=plot, resume=resume, force=force)
+        workbook = checked_workbook(file, xlsx, force)
         with workers(jobs, dask) as executor, held():
             try:
                 with outputs.rescuing(), progress_shown() as progress, warnings_told():
                     result = answered(asked, executor=executor, resume=resume, progress=progress)
                 with outputs.rescuing(result):
                     outputs.write(result)
+                    write_result(result, workbook, force)
+                    tell_written(outputs.csv, outputs.npz, outputs.picture)
                     with let_through():
                         show(result, as_json, indent=None)
             except RescuedError as error:

@@ -1,13 +1,13 @@
 """The command that trades margin off against rotational resistance."""
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from yawdesign.cli.answering import (
     AsJson,
+    Changes,
     Dask,
     Force,
     Jobs,
@@ -19,6 +19,8 @@ from yawdesign.cli.answering import (
     read_problem,
     show,
 )
+from yawdesign.cli.pictures import Plot, tell_written, write_drawing
+from yawdesign.cli.workbooks import Xlsx, checked_workbook, write_result
 from yawdesign.output.streams import tell
 
 if TYPE_CHECKING:
@@ -27,9 +29,11 @@ if TYPE_CHECKING:
 
 def trade_off(
     file: ProblemFile,
+    changes: Changes = None,
     points: Annotated[int, typer.Option(help="For how many rotational resistances the best design is found.")] = 12,
     csv: Annotated[str | None, typer.Option(help="Write a table.")] = None,
-    plot: Annotated[str | None, typer.Option(help="Draw a picture: .png, .pdf or .svg.")] = None,
+    plot: Plot = None,
+    xlsx: Xlsx = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the search points.")] = 0,
     jobs: Jobs = 1,
     dask: Dask = None,
@@ -38,8 +42,8 @@ def trade_off(
 ) -> None:
     """Find how much margin each rotational resistance allows, and the design that has it."""
     with mistakes_told():
-        problem = read_problem(file)
-        write = _outputs(file, csv, plot, force)
+        problem = read_problem(file, changes)
+        write = _outputs(file, csv, plot, xlsx, force)
         from yawdesign.damper.trade_off import IncompleteTradeOffError
         from yawdesign.damper.trade_off import trade_off as front
         from yawdesign.study.executors import workers
@@ -59,22 +63,24 @@ def trade_off(
     raise ended(checked=result.status != "unverified", feasible=bool(result.front))
 
 
-def _outputs(file: str, csv: str | None, plot: str | None, force: bool) -> "Callable[[TradeOff], None]":
+def _outputs(
+    file: str, csv: str | None, plot: str | None, xlsx: str | None, force: bool
+) -> "Callable[[TradeOff], None]":
     """Return what writes the files, if they can be written: better known now than after the work."""
-    from yawdesign.output.pictures import PICTURES, check_pictures, write_picture
+    from yawdesign.output.pictures import PICTURES, check_pictures
     from yawdesign.output.targets import Target, checked_targets
 
     targets = (Target("--csv", csv, replaced=force), Target("--plot", plot, PICTURES, replaced=force))
-    checked_targets(targets, [file])
-    picture = Path(plot) if plot else None
+    table, picture = checked_targets(targets, [file])
     check_pictures(picture)
+    workbook = checked_workbook(file, xlsx, force)
 
     def write(result: "TradeOff") -> None:
-        if csv is not None:
-            result.to_csv(csv, replace=force)
-        if picture is not None and result.front:
-            from yawdesign.output.plots import plot as draw
-
-            write_picture(draw(result), picture, replace=force)
+        if table is not None:
+            result.to_csv(table, replace=force)
+            tell_written(table)
+        write_result(result, workbook, force)
+        if result.front:
+            write_drawing(result, picture, force)
 
     return write

@@ -60,6 +60,9 @@ class Space:
         all ranges.
     demanding : bool, optional
         Whether requirements are looked at.
+    near : float, optional
+        Designs whose margin falls behind that of the best anchor by more than this share are not searched for: for a
+        search that begins close to the best design.
     """
 
     problem: Problem
@@ -68,6 +71,7 @@ class Space:
     anchors_given: tuple[Mapping[str, float], ...] = ()
     known: tuple[tuple[Condition, ...], ...] = ()
     demanding: bool = True
+    near: float | None = None
 
     @cached_property
     def names(self) -> tuple[str, ...]:

@@ -1,12 +1,15 @@
 """The front between margin and rotational resistance: for each resistance the design of largest margin.
 
 It begins with the least resistance that a stable design has, and ends at twice the curve's limit, or before it where
-more resistance leaves no larger margin. Each point is an optimum of its own. They do not depend on each other, so that
-they may be looked for in several processes; one that a point with less resistance beats is looked for again from there.
+more resistance leaves no larger margin. Each point is an optimum of its own, whose search begins with the designs of
+both neighbours that are known: first halfway between the ends, then halfway between those, and so on. What stands
+between other neighbours may be looked for in another process; a point that one with less resistance beats is looked
+for again from there.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor, Executor, as_completed
+from itertools import chain, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,6 +26,7 @@ from yawdesign.hunting.scope import conditions_told
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress, as_executor
 from yawdesign.problem.condition import Condition
+from yawdesign.problem.progress import between, unseen
 from yawdesign.problem.stopping import held
 from yawdesign.problem.table import as_count, as_seed
 
@@ -30,7 +34,9 @@ LEAST = {"decay_rate": 1e-4, "damping_ratio": 1e-5}  # margin with which a desig
 MOST_POINTS = 1000
 FARTHEST = 2.0  # the last resistance, in the curve's limit
 INACTIVE = 1e-4  # share of the limit by which a design stays below it where it has no part in the optimum
-TURNS = ((2, 1e-3), (1, 1e-5))  # of NLP and refinement, for each point
+TURNS = ((2, 1e-3), (1, 1e-5))  # of NLP and refinement, for the last point
+NEAR_TURNS = ((1, 1e-4),)  # ... for the others, which begin close to the best design
+NEAR = 0.1  # share of the margin by which designs may fall behind a neighbour's, and are looked at nevertheless
 
 Known = tuple[tuple[Condition, ...], ...]
 Values = dict[str, float]
@@ -42,7 +48,7 @@ class _Task(NamedTuple):
 
     problem: Problem
     known: Known
-    near: Values
+    near: tuple[Values, ...]
     seed: int
 
 
@@ -125,12 +131,14 @@ class _Front:
             status = Status.NO_FEASIBLE_DESIGN
             return self._result((), status, status.told(excess(space.in_curve(values), space.names, curve)))
         gentle = LeastResistance(space.problem, level=LEAST[space.objective])
-        begin = gentle.gentlest_design(self.seed, self.progress)
+        begin = gentle.gentlest_design(self.seed, between(self.progress, 0.0, 0.2))
         if begin is None:
             status = Status.NO_FRONT if space.demands else Status.UNSTABLE
             return self._result((), status, status.message)
-        first = begin[0].known, _numbers(*begin)
-        last = self._last(_solved(space.problem, *first, self.seed))
+        first = _kept(*begin)
+        space = Space(space.problem, known=first[0], anchors_given=({name: first[1][name] for name in space.names},))
+        best, x = best_design(space, self.seed, {}, between(self.progress, 0.2, 0.3), turns=TURNS)
+        last = self._last(_kept(best, x))
         return self._finished(first, last, count)
 
     def _last(self, last: Solved) -> Solved:
@@ -143,8 +151,8 @@ class _Front:
         given = ({name: values[name] for name in space.names},)
         level = margin - GAIN * abs(margin)
         there = LeastResistance(space.problem, known=known, level=level, anchors_given=given)
-        found = there.gentlest_design(self.seed, self.progress)
-        last = last if found is None else (found[0].known, _numbers(*found))
+        found = there.gentlest_design(self.seed, between(self.progress, 0.3, 0.35))
+        last = last if found is None else _kept(*found)
         self.ends_at = self._resistance(last)
         return last
 
@@ -160,13 +168,18 @@ class _Front:
 
     def _finished(self, first: Solved, last: Solved, count: int) -> TradeOff:
         """Return the front between its ends."""
-        solved, limits = {self._resistance(last): last}, self._between(first, last, count)
-        begins = [first, *[last] * len(limits)]
-        tasks = [_Task(_limited(self.problem, r), *near, self.seed) for r, near in zip(limits, begins, strict=False)]
+        limits, end = self._between(first, last, count), self._resistance(last)
+        solved = {end: last}
         try:
-            for k, (limit, one) in enumerate(self._each(limits, tasks)):
-                solved[limit] = one
-                self.progress(f"{k + 1} of {len(limits)} points of the front", (k + 1) / len(limits))
+            for places in _halving(len(limits)):
+                tasks = {}
+                for place, *sides in places:
+                    near = [solved[[*limits, end][side]] for side in sides] or [first, last]
+                    tasks[limits[place]] = self._task(limits[place], near)
+                for limit, one in self._each(tasks, len(solved) - 1, len(limits)):
+                    solved[limit] = one
+                    done = len(solved) - 1
+                    self.progress(f"{done} of {len(limits)} points of the front", _share(done, len(limits)))
             self._raise_beaten(solved)
         except (KeyboardInterrupt, BrokenExecutor) as error:
             with held():
@@ -178,14 +191,18 @@ class _Front:
         front = self._points(solved.values())
         return self._result(front, *self._judged(front))
 
-    def _each(self, limits: Sequence[float], tasks: Sequence[_Task]) -> Iterator[tuple[float, Solved]]:
-        """Yield the solutions in the order in which they come."""
+    def _task(self, limit: float, near: Sequence[Solved]) -> _Task:
+        known = tuple(tuple(dict.fromkeys(chain(*parts))) for parts in zip(*(known for known, _ in near), strict=True))
+        return _Task(_limited(self.problem, limit), known, tuple(values for _, values in near), self.seed)
+
+    def _each(self, tasks: Mapping[float, _Task], before: int, count: int) -> Iterator[tuple[float, Solved]]:
+        """Yield the solutions in the order in which they come; so many of all are solved before."""
         if self.executor is None:
-            for limit, task in zip(limits, tasks, strict=True):
-                yield limit, _solved(*task)
+            for done, (limit, task) in enumerate(tasks.items(), before):
+                ends = _share(done, count), _share(done + 1, count)
+                yield limit, _solved(*task, progress=between(self.progress, *ends))
             return
-        pairs = zip(limits, tasks, strict=True)
-        futures = {self.executor.submit(_solved, *task): limit for limit, task in pairs}
+        futures = {self.executor.submit(_solved, *task): limit for limit, task in tasks.items()}
         try:
             for future in as_completed(futures):
                 yield futures[future], future.result()
@@ -199,7 +216,7 @@ class _Front:
         for limit in sorted(solved):
             here = solved[limit]
             if best is not None and self._margin(here) < self._margin(best) * (1 - GAIN):
-                here = solved[limit] = _solved(_limited(self.problem, limit), *best, self.seed)
+                here = solved[limit] = _solved(*self._task(limit, [best]))
             if best is None or self._margin(here) > self._margin(best):
                 best = here
 
@@ -246,15 +263,39 @@ class _Front:
         return described(self.space, {**values, "C_s": C_s})
 
 
-def _solved(problem: Problem, known: Known, near: Values, seed: int) -> Solved:
-    """Return the best design of a problem, whose search begins with known conditions and a known design."""
-    given = ({name: near[name] for name in problem.design.variables},)
-    space, x = best_design(Space(problem, known=known, anchors_given=given), seed, {}, _silent, turns=TURNS)
+def _share(done: int, count: int) -> float:
+    """Return the share of the work that is done with so many points: finding the ends is part of it."""
+    return 0.35 + 0.65 * done / count
+
+
+def _halving(count: int) -> Iterator[Sequence[tuple[int, ...]]]:
+    """Yield places 0 ... count - 1 in turns, each with the places on both sides of it that came in earlier turns.
+
+    Before the first turn the place `count` is known; what the first place begins with is not among the places.
+
+    Examples
+    --------
+    >>> list(_halving(5))
+    [[(0,)], [(2, 0, 5)], [(1, 0, 2), (3, 2, 5)], [(4, 3, 5)]]
+    """
+    ends = [0, count]
+    if count:
+        yield [(0,)]
+    while turn := [((low + high) // 2, low, high) for low, high in pairwise(ends) if high - low > 1]:
+        yield turn
+        ends = sorted([*ends, *(place for place, _, _ in turn)])
+
+
+def _solved(problem: Problem, known: Known, near: Sequence[Values], seed: int, progress: Progress = unseen) -> Solved:
+    """Return the best design of a problem, whose search begins with known conditions and known designs."""
+    given = tuple({name: values[name] for name in problem.design.variables} for values in near)
+    beginning = Space(problem, known=known, anchors_given=given, near=NEAR)
+    space, x = best_design(beginning, seed, {}, progress, turns=NEAR_TURNS)
+    return _kept(space, x)
+
+
+def _kept(space: Space, x: Float) -> Solved:
     return (space.conditions, *(one.conditions for one in space.demanded)), _numbers(space, x)
-
-
-def _silent(text: str, part: float) -> None:
-    """Show no progress: that of one point is not that of the front."""
 
 
 def _limited(problem: Problem, limit: float) -> Problem:

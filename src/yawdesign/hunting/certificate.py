@@ -12,6 +12,7 @@ from fractions import Fraction
 from itertools import cycle, pairwise
 from typing import Any
 
+from yawdesign.hunting.equation_11 import interpolated
 from yawdesign.hunting.exact import resultant
 from yawdesign.hunting.hurwitz import require_paper_bogie
 from yawdesign.problem import exact
@@ -186,26 +187,14 @@ def hurwitz_polynomial(vehicle: Vehicle) -> tuple[Fraction, ...]:
     size = len(numbers.replace(C_s=from_flint.fmpq(1)).paper_coefficients()) - 1
     # Every chi is at most quadratic in C_s (core times joint), and row by row the minor takes one from each of n - 1.
     places = [from_flint.fmpq(10_000 * k) for k in range(1, 2 * size)]
-    values = _newton(places, [minor(C_s) for C_s in places])
-    return tuple(Fraction(int(a.p), int(a.q)) for a in reversed(values.coeffs()))
+    values = trim(interpolated(places, [minor(C_s) for C_s in places]))
+    return tuple(Fraction(int(a.p), int(a.q)) for a in reversed(values))
 
 
 def _hurwitz_matrix(chi: Sequence[Any]) -> list[list[Any]]:
     """Return the matrix of Delta_(n-1): row i, column k holds chi_(2 k - i), counted from 1."""
     n = len(chi) - 1
     return [[chi[2 * k - i] if 0 <= 2 * k - i <= n else 0 for k in range(1, n)] for i in range(1, n)]
-
-
-def _newton(places: Sequence[Any], values: Sequence[Any]) -> Any:
-    """Return the polynomial through the points, by Newton's divided differences."""
-    differences = list(values)
-    for order in range(1, len(places)):
-        for k in range(len(places) - 1, order - 1, -1):
-            differences[k] = (differences[k] - differences[k - 1]) / (places[k] - places[k - order])
-    polynomial = _flint().fmpq_poly([0])
-    for place, difference in zip(reversed(places), reversed(differences), strict=True):
-        polynomial = polynomial * _flint().fmpq_poly([-place, 1]) + difference
-    return polynomial
 
 
 def positive_roots(coefficients: Sequence[Fraction | float]) -> tuple[float, ...]:

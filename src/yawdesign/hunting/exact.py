@@ -89,10 +89,11 @@ def _with_digits(coefficients: Sequence[Polynomial], digits: int) -> ExactValues
 
 
 def _values(coefficients: Sequence[Polynomial], digits: int) -> ExactValues:
-    parts = [_decimals(p) for p in coefficients]
+    parts = [decimals(p) for p in coefficients]
     F = resultant(coefficients)
-    phase = _decimals(trim(F[::-1])[::-1])  # without its roots at zero
-    roots = [_refined(chain[0], low, high, digits) for chain, low, high in _isolated(phase, digits)]
+    phase = decimals(trim(F[::-1])[::-1])  # without its roots at zero
+    chain = sturm_chain(phase, digits) if len(phase) > 1 else []
+    roots = [_refined(chain[0], low, high, digits) for low, high in isolated(chain)]
     critical = sorted((C_s, x.sqrt()) for x in roots if (C_s := _damping(parts, x, digits)) > 0)
     counts = tuple(_unstable(_at(parts, C_s)) for C_s in _places([C_s for C_s, _ in critical]))
     steps = [after - before for before, after in pairwise(counts)]
@@ -133,41 +134,62 @@ def _at(parts: Sequence[Digits], C_s: Decimal) -> Digits:
     return reduce(lambda value, p: add(p, scale(value, C_s)), reversed(parts))
 
 
-def _decimals(p: Polynomial) -> Digits:
+def decimals(p: Polynomial) -> Digits:
     """Return exact coefficients as decimals, each rounded once."""
     fractions = [Fraction(a) for a in p]
     return tuple(Decimal(a.numerator) / Decimal(a.denominator) for a in fractions)
 
 
-def _isolated(F: Digits, digits: int) -> Iterator[tuple[list[Digits], Decimal, Decimal]]:
-    """Yield intervals with one positive root of F each, by the sign changes of its Sturm chain."""
-    if len(F) < 2:
+def isolated(chain: Sequence[Digits]) -> Iterator[tuple[Decimal, Decimal]]:
+    """Yield intervals with one positive root of a polynomial each, by the sign changes of its Sturm chain."""
+    if not chain:
         return
-    chain = _sturm_chain(F, digits)
+    F = chain[0]
     # The odd factor keeps the middles off round numbers, where exact roots may lie.
     low, high = 1 / _bound(F[::-1]), Decimal("1.137") * _bound(F)
-    open_ = [(low, high, _changes(chain, low), _changes(chain, high))]
+    open_ = [(low, high, sign_changes(chain, low), sign_changes(chain, high))]
     while open_:
         low, high, left, right = open_.pop()
         if left - right == 1:
-            yield chain, low, high
+            yield low, high
         elif left != right:
             middle = (low * high).sqrt()
             if not low < middle < high:
                 raise NotDecidedError("two roots are closer than the digits")
-            between = _changes(chain, middle)
+            between = sign_changes(chain, middle)
             open_ += [(low, middle, left, between), (middle, high, between, right)]
 
 
-def _sturm_chain(F: Digits, digits: int) -> list[Digits]:
+def sturm_chain(F: Digits, digits: int, *, multiple: bool = False) -> list[Digits]:
+    """Return the Sturm chain of a polynomial.
+
+    Parameters
+    ----------
+    F : tuple of Decimal
+        At least of first degree.
+    digits : int
+        That are computed with.
+    multiple : bool
+        Whether there may be multiple roots: then it ends with their polynomial, where the rest is lost in rounding.
+
+    Raises
+    ------
+    NotDecidedError
+        If it ends so and there should be none.
+    """
     chain = [_unit(F), _unit(derivative(F))]
     while len(chain[-1]) > 1:
-        chain.append(_remainder(chain[-2], chain[-1], digits))
+        rest = _remainder(chain[-2], chain[-1])
+        if max(map(abs, rest)) < Decimal(1).scaleb(-digits // 2):
+            if multiple:
+                break
+            raise NotDecidedError("a remainder is lost in rounding: there may be a double root")
+        chain.append(_unit(rest))
     return chain
 
 
-def _remainder(upper: Digits, lower: Digits, digits: int) -> Digits:
-    """Return minus the remainder of upper / lower, scaled; both have a largest coefficient of 1."""
+def _remainder(upper: Digits, lower: Digits) -> Digits:
+    """Return minus the remainder of upper / lower over the quotient's size; both have a largest coefficient of 1."""
     rest = list(upper)
     largest = Decimal(1)
     while len(rest) >= len(lower):
@@ -176,9 +198,7 @@ def _remainder(upper: Digits, lower: Digits, digits: int) -> Digits:
         for k, a in enumerate(lower[:-1]):
             rest[place + k] -= quotient * a
         largest = max(largest, abs(quotient))
-    if max(map(abs, rest)) < largest.scaleb(-digits // 2):
-        raise NotDecidedError("a remainder is lost in rounding: there may be a double root")
-    return _unit([-a for a in rest])
+    return tuple(-a / largest for a in rest)
 
 
 def _unit(p: Sequence[Decimal]) -> Digits:
@@ -202,7 +222,8 @@ def _value(p: Digits, x: Decimal) -> Decimal:
     return value
 
 
-def _changes(chain: Sequence[Digits], x: Decimal) -> int:
+def sign_changes(chain: Sequence[Digits], x: Decimal) -> int:
+    """Return how often the sign changes along a Sturm chain at a place."""
     values = [_value(p, x) for p in chain]
     if not values[0]:
         raise NotDecidedError("a root lies on the edge of an interval")

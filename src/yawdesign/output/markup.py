@@ -12,7 +12,7 @@ from rich.text import Text
 
 from yawdesign.output import style
 from yawdesign.output.pictures import own_texts
-from yawdesign.problem.characters import is_refused
+from yawdesign.problem.characters import in_order
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -53,7 +53,7 @@ def text(value: str) -> str:
 
 def plain_text(value: str) -> str:
     """Return a text for a place where there are no elements, such as a title or an attribute."""
-    return escape("".join("\ufffd" if is_refused(sign) and sign != "\n" else sign for sign in value))
+    return escape(in_order(value))
 
 
 def tables(shown: RenderableType) -> str:
@@ -117,7 +117,11 @@ def picture(axes: "Axes", name: str, title: str, description: str) -> str:
     figure: Any = axes.get_figure(root=True)
     with own_texts():
         figure.savefig(content, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
-    svg = content.getvalue()
+    return embedded(content.getvalue(), name, title, description)
+
+
+def embedded(svg: str, name: str, title: str, description: str) -> str:
+    """Return an SVG document as an element for a page; the other parameters as of `picture`."""
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, count=1, flags=re.DOTALL)
     svg = re.sub(r'\b(id="|xlink:href="#|url\(#)', rf"\g<1>{name}-", svg)

@@ -99,6 +99,7 @@ def _cases(result: "Optimum") -> Iterator[RenderableType]:
         return
     columns = "fault", "stable", "decay rate before [1/s]", "decay rate [1/s]", "damping ratio [%]", "worst condition"
     table = titled("Faults, each under all conditions", *columns)
+    table.columns[-1].justify = "left"
     before = {case.name: f"{case.decay_rate:.4g}" for case in result.cases_before}
     for case in result.cases:
         stable = ("yes" if case.stable else "NO") if case.checked else "not verified"

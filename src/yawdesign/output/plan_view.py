@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 from yawdesign.output.pictures import quantity
 from yawdesign.output.style import CHOSEN, LIMIT, SERIES
-from yawdesign.problem import ProblemError, format_quantity
-from yawdesign.problem.diagnostics import unknown_key
+from yawdesign.problem import format_quantity
 
 if TYPE_CHECKING:
     from yawdesign.response.modes.named_modes import Modes, NamedMode
@@ -72,12 +71,7 @@ def box(x: float, y: float, half_length: float, half_width: float) -> tuple[Corn
 
 def find_mode(result: "Modes", name: str | None) -> "NamedMode":
     """Return the mode with a name, the least damped one if none is given."""
-    if name is None:
-        return result.modes[0]
-    named = {mode.name: mode for mode in result.modes}
-    if name not in named:
-        raise ProblemError(f"mode {name!r} {unknown_key(name, tuple(named))}; modes: {', '.join(named)}")
-    return named[name]
+    return result[0 if name is None else name]
 
 
 def bodies(result: "Modes", mode: "NamedMode") -> tuple[Body, ...]:

@@ -9,16 +9,15 @@ from rich.console import Console, Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from yawdesign.hunting.chosen_condition import condition_in_words
 from yawdesign.hunting.scope import ONE_ONLY
 from yawdesign.output.condition_texts import condition_text
+from yawdesign.output.table_widths import as_read, fitted
 from yawdesign.problem import PARAMETERS, format_quantity
 from yawdesign.problem.requirements import CASES
 
 if TYPE_CHECKING:
     from yawdesign.damper.forward import Critical, ForwardDesign
     from yawdesign.damper.single_bogie import Parting, SingleBogie
-    from yawdesign.exports.write import Export
     from yawdesign.hunting.verdict import CaseVerdict, Mode, RequirementVerdict, Stability
 
 DAMPING = "kN·s/m"
@@ -186,6 +185,10 @@ def _interval(low: float, high: float) -> str:
     return f"{damping(low)} ... " + ("no limit" if high == float("inf") else damping(high))
 
 
+def _allowed(C_su: float | None) -> str:
+    return damping(C_su) if C_su is None or C_su >= 0 else "none: K_2x and C_t alone exceed the limit"
+
+
 def _design_facts(result: "ForwardDesign") -> Table:
     many = len({tuple(x.condition.items()) for x in result.critical}) > 1
     where = "stable under every condition for C_s in" if many else "stable for C_s in"
@@ -195,7 +198,7 @@ def _design_facts(result: "ForwardDesign") -> Table:
         *(stable or [(where, "none")]),
         ("C_sl, lower end of the stable interval", damping(result.C_sl)),
         *([("the condition that sets it", condition_text(result.worst_condition))] if result.worst_condition else []),
-        (f"C_su, limit of the curve{load}", damping(result.C_su)),
+        (f"C_su, limit of the curve{load}", _allowed(result.C_su)),
         ("C_s, golden section", damping(result.C_s)),
         ("is that C_s stable", "yes" if result.stable else "no"),
     ]
@@ -231,23 +234,17 @@ def _sensitivities(result: "ForwardDesign") -> list[Table]:
     if not result.sensitivity:
         return []
     table = titled("What moves C_sl most: change in % for 1 %", "parameter", "d ln C_sl / d ln p", "meaning")
+    table.columns[-1].justify = "left"
     largest = sorted(result.sensitivity.items(), key=lambda item: -abs(item[1]))[:SHOWN]
     for name, value in largest:
         meaning = PARAMETERS[name].meaning if name in PARAMETERS else "running speed"
-        table.add_row(name, f"{value:+.2f}", Text(meaning, justify="left"))
+        table.add_row(name, f"{value:+.2f}", meaning)
     return [table]
-
-
-def export_tables(result: "Export") -> RenderableType:
-    """Return the table of an `Export`."""
-    rows = [("functions", ", ".join(result.functions)), ("files", ", ".join(result.files))]
-    rows += [("condition", condition_in_words(result.condition)), ("what they take and give", "manifest.json")]
-    return facts(f"Written to {result.folder}", rows)
 
 
 def rendered(table: RenderableType) -> str:
     """Return tables as standard output shows them; brackets and colons in their texts are no markup."""
     terminal, text = Console(), io.StringIO()
     looks: dict[str, Any] = {"width": terminal.width, "force_terminal": terminal.is_terminal}
-    Console(file=text, markup=False, emoji=False, **looks).print(table)
-    return text.getvalue()
+    Console(file=text, markup=False, emoji=False, **looks).print(fitted(table, terminal.width))
+    return as_read(text.getvalue())

@@ -2,11 +2,11 @@
 
 from .creep import creep_coefficients
 from .diagnostics import Diagnostic, ProblemError
+from .paper_example import table1
 from .parameters import PARAMETERS, Bogie, CarBody
-from .presets import table1
 from .problem import Problem
 from .quantities import Written, exact, format_quantity, parse_quantity, to_unit
-from .reader import load, loads, read
+from .reader import load, loads, read, read_stream
 from .running import Curve, SpeedRange
 from .schema import SCHEMA_FILE, schema
 from .starter import starter
@@ -34,6 +34,7 @@ __all__ = [
     "loads",
     "parse_quantity",
     "read",
+    "read_stream",
     "schema",
     "starter",
     "table1",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 
+_TURNS = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"  # the direction of what follows
 _LINE_ENDS = "\n\r\x0b\x0c\x85\u2028\u2029"
 
 
@@ -44,6 +45,19 @@ def visible(text: str) -> str:
     'a\\x07'
     """
     return "".join(char.encode("unicode_escape").decode() if is_refused(char) else char for char in text)
+
+
+def in_order(text: str) -> str:
+    r"""Return a text that a terminal shows in the order of its letters, whatever it holds.
+
+    What is refused, line ends apart, and what turns the direction of all that follows are shown as a sign of their own.
+
+    Examples
+    --------
+    >>> in_order("a\u202eb") == "a\ufffdb"
+    True
+    """
+    return "".join("\ufffd" if char in _TURNS or (char not in "\n\t" and is_refused(char)) else char for char in text)
 
 
 def printable(text: str) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import prod
 from typing import Any
 
+from .quantities import decimal_text
 from .table import Parameter
 
 CREEP = ("f_11", "f_22")  # what `creep_factor` multiplies
@@ -175,10 +176,10 @@ class Conditions:
     @property
     def written(self) -> dict[str, Any]:
         """The same with the keys of a problem file, in SI units; shares are percentages."""
-        found: dict[str, Any] = {name: [float(x) for x in values] for name, values in self.values}
-        found |= {name: {"min": float(low), "max": float(high)} for name, (low, high) in self.ranges}
+        found: dict[str, Any] = {name: list(values) for name, values in self.values}
+        found |= {name: {"min": low, "max": high} for name, (low, high) in self.ranges}
         if self.tolerance:
-            found["tolerance"] = {name: f"{100 * float(share):.15g} %" for name, share in self.tolerance}
+            found["tolerance"] = {name: f"{decimal_text(share, '%')} %" for name, share in self.tolerance}
         if self.loads:
-            found["load"] = {load.name: {key: float(x) for key, x in load.changes} for load in self.loads}
+            found["load"] = {load.name: dict(load.changes) for load in self.loads}
         return found

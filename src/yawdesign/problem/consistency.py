@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
+from typing import Literal, get_args
 
 from .cases import Case, outside
 from .condition import CREEP, CREEP_FACTOR, MOST_LISTED, Conditions, Load
-from .diagnostics import Diagnostic, unknown_key
+from .diagnostics import Diagnostic
 from .distributions import Distribution, unfit
+from .outside_the_model import why_unknown
 from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, NO_ROLL, PARAMETERS, ROLL_NEEDS_IT, VERTICAL
 from .requirements import Requirement, without_cases
 from .running import SPEED
 from .table import RIGID, Parameter
 
+Equations = Literal["reciprocal", "as-printed"]
+EQUATIONS: tuple[str, ...] = get_args(Equations)
 GRAVITY = 9.80665  # [m/s^2], the standard acceleration of free fall
 Values = Mapping[str, float | None]  # what is given of a part, by key; None where the value is not known
 
@@ -195,7 +199,7 @@ def why_absent(key: str, kind: str, given: Values, known: Collection[str] = ()) 
     if key in PARAMETERS:
         part = "car_body" if key in CAR_BODY and key not in BOGIE else "bogie"
         return f"is not part of this vehicle: give its value under {part} first"
-    return unknown_key(key, known or present(given))
+    return why_unknown(key, known or present(given))
 
 
 def fitting_axle_load(p: Mapping[str, float], kind: str) -> float:

@@ -90,8 +90,7 @@ class CatalogueDamper:
     def written(self) -> dict[str, Any]:
         """It with the keys of a problem file, in SI units [SI]."""
         values = {name: getattr(self, name) for name in COLUMNS}
-        found = {name: "rigid" if x == RIGID else x for name, x in values.items() if x is not None}
-        return {name: float(x) if isinstance(x, float) else x for name, x in found.items()}
+        return {name: "rigid" if x == RIGID else x for name, x in values.items() if x is not None}
 
 
 QUANTITIES: Mapping[str, Parameter] = table(CatalogueDamper)

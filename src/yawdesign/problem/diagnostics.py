@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 from .characters import visible
 
@@ -38,6 +38,8 @@ class Diagnostic:
         Where the value starts, counted from 1; None for a problem made in Python.
     source_line : str
         The line as it was written.
+    cell : str
+        Sheet and cell of a workbook, such as ``problem!B7``; empty for texts.
     length : int
         Number of characters to underline.
     at_key : bool
@@ -52,13 +54,20 @@ class Diagnostic:
     column: int | None = None
     source_line: str = ""
     length: int = 1
+    cell: str = ""
     at_key: bool = False
 
     def render(self) -> str:
         """Return the message as shown to a person: place, text, source line and underline."""
-        place = ":".join(str(part) for part in (self.path, self.line, self.column) if part not in ("", None))
+        parts = (self.path, self.cell) if self.cell else (self.path, self.line, self.column)
+        place = ":".join(str(part) for part in parts if part not in ("", None))
         head = visible(": ".join(part for part in (place, self.severity, self.key, self.message) if part))
         return f"{head}\n{self._underlined()}" if self.line and self.source_line.strip() else head
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data that JSON can hold: its place, file included, and what it says."""
+        place = {"file": self.path or None, "line": self.line, "column": self.column, "length": self.length}
+        return {**place, "key": self.key, "message": self.message, "source_line": self.source_line}
 
     def _underlined(self) -> str:
         column = (self.column or 1) - 1

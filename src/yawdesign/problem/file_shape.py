@@ -24,13 +24,13 @@ from pydantic import create_model as make
 
 from .cases import as_cases
 from .condition import Conditions
+from .consistency import EQUATIONS
 from .creep import CREEP, MADE, creep_coefficients
 from .damper_catalogue import as_catalogue, catalogue_schema
 from .diagnostics import Mistakes, ProblemError
 from .distributions import as_distributions
 from .parameters import BOGIE, CAR_BODY, KINDS, PARAMETERS, Bogie, CarBody, bogie_keys
 from .patterns import unit_pattern
-from .problem import EQUATIONS, Problem
 from .requirements import as_requirements
 from .running import CURVE, LOADS, SPEED, STEPS, Curve, SpeedRange, as_speeds
 from .table import Parameter, as_choice, as_count, as_switch, as_text, check_end, field_name
@@ -216,23 +216,23 @@ def problem_model(
     )
 
 
-def build(model: BaseModel) -> Problem:
-    """Return the problem that a validated model describes."""
+def parts_of(model: BaseModel) -> dict[str, Any]:
+    """Return the parts of the problem that a validated model describes, as its constructor takes them."""
     data = given(model)
     speed = data["speed"]
-    return Problem(
-        title=data.get("title", ""),
-        equations=data.get("equations", "reciprocal"),
-        bogie=Bogie(**_values(data["bogie"]), **_made(data["bogie"])),
-        car_body=CarBody(**_values(data["car_body"])) if "car_body" in data else None,
-        speed=SpeedRange(**speed) if isinstance(speed, dict) else speed,
-        curve=Curve(**data["curve"]) if "curve" in data else None,
-        cases=data.get("cases", ()),
-        conditions=data.get("conditions", Conditions()),
-        requirements=data.get("requirements", ()),
-        uncertainty=data.get("uncertainty", ()),
-        design=_design(data.get("design", {})),
-    )
+    return {
+        "title": data.get("title", ""),
+        "equations": data.get("equations", "reciprocal"),
+        "bogie": Bogie(**_values(data["bogie"]), **_made(data["bogie"])),
+        "car_body": CarBody(**_values(data["car_body"])) if "car_body" in data else None,
+        "speed": SpeedRange(**speed) if isinstance(speed, dict) else speed,
+        "curve": Curve(**data["curve"]) if "curve" in data else None,
+        "cases": data.get("cases", ()),
+        "conditions": data.get("conditions", Conditions()),
+        "requirements": data.get("requirements", ()),
+        "uncertainty": data.get("uncertainty", ()),
+        "design": _design(data.get("design", {})),
+    }
 
 
 def given(model: BaseModel) -> dict[str, Any]:

@@ -8,12 +8,11 @@ from importlib.resources import files
 from typing import Any
 
 from .creep import MADE
-from .diagnostics import Mistakes
 from .document import compose, plain_data
-from .file_shape import PRESETS, build, problem_model
-from .parameters import KINDS, bogie_keys
-from .problem import EQUATIONS, Problem
-from .table import as_choice
+from .file_shape import PRESETS
+from .parameters import bogie_keys
+
+REMOVED = object()  # stands for a value that a change removes, also where a preset has one
 
 
 @cache
@@ -23,74 +22,50 @@ def preset_text(name: str) -> str:
 
 
 @cache
-def _preset(name: str) -> Any:
+def preset(name: str) -> Any:
+    """Return the data of a preset."""
     return plain_data(compose(preset_text(name), name).root)
 
 
 def preset_bogie(name: str, kind: str) -> dict[str, Any]:
     """Return a preset's bogie by key, without what it does not have; a trailer bogie gets no motor values."""
-    bogie = _preset(name)["bogie"]
+    bogie = preset(name)["bogie"]
     return {"kind": kind} | {key: bogie[key] for key in bogie_keys(kind) if key in bogie}
 
 
 def preset_car_body(name: str) -> dict[str, Any]:
     """Return a preset's car body by key."""
-    return dict(_preset(name)["car_body"])
+    return dict(preset(name)["car_body"])
 
 
-def with_presets(data: dict[str, Any]) -> tuple[dict[str, Any], frozenset[str]]:
+def with_presets(data: Mapping[str, Any]) -> tuple[dict[str, Any], frozenset[str]]:
     """Return data with the values of presets filled in, and the parts of which nothing may be missing."""
     filled, complete = dict(data), set(PRESETS)
     for part, names in PRESETS.items():
         given = data.get(part)
-        if not isinstance(given, dict) or "base" not in given:
+        if not isinstance(given, dict):
+            continue
+        if "base" not in given:
             continue
         base = given["base"]
         if base not in names:
             complete.remove(part)
             continue
-        preset = preset_bogie(base, kind_of_bogie(data)) if part == "bogie" else preset_car_body(base)
-        filled[part] = {key: x for key, x in preset.items() if key not in MADE or "creep" not in given} | given
-    return filled, frozenset(complete)
+        values = preset_bogie(base, kind_of_bogie(data)) if part == "bogie" else preset_car_body(base)
+        filled[part] = {key: x for key, x in values.items() if key not in MADE or "creep" not in given} | given
+    return without_removed(filled), frozenset(complete)
+
+
+def without_removed(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return data without the values that a change has removed."""
+    found = dict(data)
+    for part in PRESETS:
+        if isinstance(given := found.get(part), dict):
+            found[part] = {key: value for key, value in given.items() if value is not REMOVED}
+    return found
 
 
 def kind_of_bogie(data: Mapping[str, Any]) -> str:
     """Return the kind of bogie that a file is about."""
     bogie = data.get("bogie")
     return "trailer" if isinstance(bogie, dict) and bogie.get("kind") == "trailer" else "power"
-
-
-def table1(kind: str = "power", equations: str = "reciprocal") -> Problem:
-    """Return the bogie of Table I at 300 km/h with the curve of the paper's example.
-
-    Parameters
-    ----------
-    kind : {"power", "trailer"}
-        With the motors, or without them and otherwise the same.
-    equations : {"reciprocal", "as-printed"}
-        Whether the motors' yaw reaction acts on the frame, or is left out as in the paper's equations.
-
-    Returns
-    -------
-    Problem
-        The problem.
-
-    References
-    ----------
-    Y. Yu, J. Wang, Y. Song, L. Zhao: Stability Analysis of Power Bogie System and Forward Design of Its Yaw Damper
-    Damping Parameter. Table I and section V-B.
-
-    Examples
-    --------
-    >>> table1().bogie.M_b, table1().speeds
-    (7186.0, (83.33333333333333,))
-    """
-    mistakes = Mistakes()
-    for name, value, choices in (("kind", kind, KINDS), ("equations", equations, EQUATIONS)):
-        with mistakes.under(name):
-            as_choice(value, choices)
-    mistakes.report()
-    data = _preset("table1") | {"bogie": preset_bogie("table1", kind), "equations": equations}
-    if kind == "trailer":
-        data["title"] = "Trailer bogie with the values of Table I"
-    return build(problem_model(kind).model_validate(data))

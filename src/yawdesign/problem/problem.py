@@ -3,33 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, is_dataclass, replace
-from numbers import Real
-from typing import Any, Literal, Self, get_args
+from dataclasses import dataclass, field, fields, replace
+from os import PathLike
+from pathlib import Path
+from typing import Any, Self, get_args
 
 from .arguments import named
+from .bare_speeds import warn_of_bare_speeds
 from .cases import Case, as_cases
+from .catalogue_file import with_named_catalogue
+from .changes import ChangedData, NewValue, changed
 from .condition import CREEP_FACTOR, Conditions
-from .consistency import misfits, present, why_absent
+from .consistency import EQUATIONS, Equations, misfits, present
 from .diagnostics import Mistakes, ProblemError
 from .distributions import Distribution, as_distributions
-from .distributions import written as written_distributions
-from .parameters import CAR_BODY, VERTICAL, Bogie, CarBody, bogie_keys, given_of
+from .file_data import checked_data
+from .notebook_view import NotebookView
+from .parameters import VERTICAL, Bogie, CarBody, given_of
+from .problem_text import problem_text
+from .problem_workbook import problem_sheets
 from .quantities import Written, exact
 from .requirements import Requirement, as_requirements
-from .requirements import written as written_requirements
-from .running import CURVE, SPEED, Curve, SpeedRange, as_speeds
-from .table import RIGID, Parameter, as_choice, as_text, field_name, key_of, shown
+from .running import SPEED, Curve, SpeedRange, as_speeds
+from .table import Parameter, as_choice, as_text, key_of, shown
 from .variables import Design, default_variables
+from .whole_files import write_whole
+from .workbook_writing import write_workbook
 from .written_conditions import as_conditions
-
-Equations = Literal["reciprocal", "as-printed"]
-EQUATIONS: tuple[str, ...] = get_args(Equations)
+from .written_problem import in_plain_numbers, written
 
 
 @named
 @dataclass(frozen=True, kw_only=True)
-class Problem:
+class Problem(NotebookView):
     """Everything that an answer depends on.
 
     Parameters
@@ -74,6 +80,43 @@ class Problem:
     conditions: Conditions = field(default_factory=Conditions)
     requirements: tuple[Requirement, ...] = ()
     uncertainty: tuple[Distribution, ...] = ()
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """Return the problem that plain data describe.
+
+        Parameters
+        ----------
+        data : mapping
+            What `to_dict` returns, or what a problem file holds: numbers in SI or texts with a unit; a preset may be
+            named, and a file with a catalogue, which is looked for in the current folder.
+
+        Returns
+        -------
+        Problem
+
+        Raises
+        ------
+        ProblemError
+            With all mistakes.
+
+        Examples
+        --------
+        >>> Problem.from_dict({"bogie": {"base": "table1"}, "speed": "250 km/h"}).bogie.K_m
+        626480.0
+        """
+        return cls._of(ChangedData({key: value for key, value in data.items() if value is not None}), whole=False)
+
+    @classmethod
+    def _of(cls, new: ChangedData, *, whole: bool) -> Self:
+        """Return the problem that changed data describe; a bare speed is doubted, a `whole` number too."""
+        data = with_named_catalogue(new.data)
+        checked = checked_data(data)
+        mistakes = [*new.mistakes, *(each.diagnostic for each in dict.fromkeys(checked.faults))]
+        if mistakes:
+            raise ProblemError(mistakes)
+        warn_of_bare_speeds(data, whole=whole)
+        return cls(**checked.parts)
 
     def __post_init__(self) -> None:
         mistakes = Mistakes()
@@ -179,14 +222,18 @@ class Problem:
             return self.speed.values
         return self.speed if isinstance(self.speed, tuple) else (self.speed,)
 
-    def replace(self, **changes: Any) -> Self:
+    def replace(self, changes: Mapping[str, Any] | None = None, /, **more: Any) -> Self:
         """Return a problem with other values.
 
         Parameters
         ----------
-        **changes
-            Fields of the problem (``speed="250 km/h"``), parameters of the bogie (``C_s="1 MN s/m"``), of the car body
-            or of the curve (``limit=0.1``), or the ``objective``; a name is looked for in this order.
+        changes : mapping, optional
+            New values by name.
+        **more
+            The same: any key of a problem file. A name that stands alone is looked for in bogie, car body, curve and
+            speed, and is the objective or the creep factor; others are dotted, ``{"design.variables.C_s.max": "2 MN
+            s/m"}``. Values are as a problem file has them, or parts such as `Bogie`; None removes a key. The new value
+            of a parameter takes the place of the conditions of its name.
 
         Returns
         -------
@@ -197,59 +244,80 @@ class Problem:
         ------
         ProblemError
             If a name is not known or a value is not accepted.
-        """
-        mistakes = Mistakes()
-        parts: dict[str, dict[str, Any]] = {name: {} for name in ("own", *_PARTS)}
-        for name, value in changes.items():
-            with mistakes.under(key_of(name)):
-                parts[self._part_of(key_of(name))][field_name(key_of(name))] = value
-        mine = parts.pop("own")
-        with mistakes.under("speed"):
-            if isinstance(speed := mine.get("speed"), Real):  # a speed that was computed is hardly whole
-                mine["speed"] = SPEED.accept(speed, doubtful=SPEED.check(speed).exact.denominator == 1)
-        for name, values in parts.items():
-            with mistakes.under(name):
-                part = mine.get(name, getattr(self, name))
-                _instance(part, _PARTS[name])
-                if values:
-                    mine[name] = replace(part, **values)
-        mistakes.report()
-        return replace(self, **mine)
 
-    def _part_of(self, key: str) -> str:
-        """Return which part of the problem has a key."""
-        own = {f.name for f in fields(self)}
-        body = {f.name for f in fields(CarBody)} if self.car_body else set()
-        curve = {f.name for f in fields(Curve)} if self.curve else set()
-        allowed = {
-            **dict.fromkeys(own, "own"),
-            **dict.fromkeys(("objective",), "design"),
-            **dict.fromkeys((*CURVE, "load") if curve else (), "curve"),
-            **dict.fromkeys((*CAR_BODY, "overturning") if body else (), "car_body"),
-            **dict.fromkeys((*bogie_keys(self.bogie.kind), "gravitational_stiffness"), "bogie"),
-        }
-        if body:
-            allowed |= dict.fromkeys(VERTICAL, "car_body")
-        if key not in allowed:
-            raise ProblemError(why_absent(key, self.bogie.kind, self.parameters(), allowed))
-        return allowed[key]
+        Examples
+        --------
+        >>> import yawdesign as yd
+        >>> problem = yd.table1().replace(C_s="1.2 MN s/m", speed="280 km/h", limit=0.1)
+        >>> problem.replace({"design.variables.C_s.max": "2 MN s/m"}).design.variables["C_s"].max
+        2000000.0
+        """
+        values = [NewValue(name, written(value), key_of(name)) for name, value in {**(changes or {}), **more}.items()]
+        new = changed({key: value for key, value in self._written.items() if value is not None}, values)
+        return self._of(new, whole=True)
+
+    @property
+    def _written(self) -> dict[str, Any]:
+        """The same with the keys of a problem file and exact numbers."""
+        return {each.name: written(getattr(self, each.name)) or _EMPTY.get(each.name) for each in fields(self)}
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data in SI that JSON can hold, with the keys of a problem file."""
-        plain: dict[str, Any] = {f.name: _plain(getattr(self, f.name)) for f in fields(self)}
-        plain["bogie"] = {"kind": self.bogie.kind} | _given(self.bogie)
-        if self.car_body is not None:
-            plain["car_body"] = _given(self.car_body)
-        plain["cases"] = {case.name: {change.key: change.written for change in case.changes} for case in self.cases}
-        plain["conditions"] = self.conditions.written
-        plain["requirements"] = written_requirements(self.requirements)
-        catalogue = plain["design"].pop("catalogue")
-        if catalogue:
-            plain["design"]["catalogue"] = [damper.written for damper in self.design.catalogue]
-        plain["uncertainty"] = written_distributions(self.uncertainty)
+        plain: dict[str, Any] = in_plain_numbers(self._written)
         return plain
 
+    def to_yaml(self, path: str | PathLike[str] | None = None, *, replace: bool = False) -> str:
+        """Return the problem as the text of a problem file, which reads as the same problem again.
 
+        Parameters
+        ----------
+        path : path, optional
+            File to write it to.
+        replace : bool
+            Whether another file may be replaced.
+
+        Returns
+        -------
+        str
+            YAML 1.2, in the units people use. Numbers have the decimals they were written with. The dampers of a
+            catalogue stand in it.
+
+        Raises
+        ------
+        ProblemError
+            If there is a file and it may not be replaced, or the catalogue is larger than a problem file may be.
+
+        Examples
+        --------
+        >>> import yawdesign as yd
+        >>> print(yd.table1().replace(title="Slower", speed="280 km/h").to_yaml().splitlines()[1])
+        title: Slower
+        """
+        text = problem_text(self._written)
+        if path is not None:
+            write_whole(Path(path), text.encode(), replace=replace)
+        return text
+
+    def to_excel(self, path: str | PathLike[str], *, replace: bool = False) -> None:
+        """Write the problem as a workbook, which reads as the same problem again.
+
+        Parameters
+        ----------
+        path : path
+            Its name ends in .xlsx. The sheet ``problem`` has a row for each value, the sheet ``dampers`` those of a
+            catalogue.
+        replace : bool
+            Whether another file may be replaced.
+
+        Raises
+        ------
+        ProblemError
+            If there is a file and it may not be replaced, or openpyxl is not installed (``yawdesign[excel]``).
+        """
+        write_workbook(path, problem_sheets(self.to_yaml()), replace=replace)
+
+
+_EMPTY: Mapping[str, Any] = {"title": "", "cases": {}, "conditions": {}, "requirements": {}, "uncertainty": {}}
 _PARTS: Mapping[str, Any] = {"bogie": Bogie, "car_body": CarBody | None, "curve": Curve | None, "design": Design}
 
 
@@ -265,24 +333,7 @@ def _speed(given: Any) -> float | tuple[float, ...] | SpeedRange:
     return SpeedRange(**given)
 
 
-def _given(part: Bogie | CarBody) -> dict[str, Any]:
-    """Return what was given of a part, by key."""
-    found = {key: "rigid" if value == RIGID else float(value) for key, value in given_of(part).items()}
-    switches = {"gravitational_stiffness": True, "overturning": False}
-    return found | {key: getattr(part, key) for key, usual in switches.items() if getattr(part, key, usual) != usual}
-
-
 def _instance(value: object, kind: Any) -> None:
     if not isinstance(value, kind):
         expected = next(a for a in (kind, *get_args(kind)) if isinstance(a, type)).__name__
         raise ProblemError(f"{value!r} is not a {expected}")
-
-
-def _plain(value: Any) -> Any:
-    if is_dataclass(value) and not isinstance(value, type):
-        return {f.name: _plain(getattr(value, f.name)) for f in fields(value)}
-    if isinstance(value, Mapping):
-        return {key: _plain(entry) for key, entry in value.items()}
-    if isinstance(value, tuple):
-        return [_plain(entry) for entry in value]
-    return float(value) if isinstance(value, float) else value

@@ -205,3 +205,59 @@ def format_quantity(value: float, unit: str, digits: int = 6) -> str:
     ('626.48 kN/m', '300 km/h', '0.15')
     """
     return f"{format_number(to_unit(value, unit), digits)} {unit.strip('-')}".strip()
+
+
+def decimal_text(value: Fraction | float, unit: str = "") -> str:
+    """Return the decimal of an SI value in a unit: exact, if it was written so, or else the shortest for its double.
+
+    Parameters
+    ----------
+    value : Written, Fraction, int or float
+        The value in SI.
+    unit : str
+        The unit to show; ``"-"`` or an empty text for a plain number.
+
+    Examples
+    --------
+    >>> decimal_text(Written("626480"), "kN/m"), decimal_text(300 / 3.6, "km/h"), decimal_text(Written("0.1"), "%")
+    ('626.48', '300', '10')
+    """
+    wanted, size = exact(value), parse_unit(unit).factor
+    meant = None if wanted == Fraction(repr(float(value))) else _digits(wanted / size)
+    if meant is None:
+        near = float(wanted / size)
+        texts = (f"{near:.{digits}g}" for digits in (15, 16, 17))
+        shortest = next((text for text in texts if float(Fraction(text) * size) == float(value)), None)
+        meant = _digits(Fraction(shortest)) if shortest else _digits(wanted / size)
+    if meant is None:
+        raise ValueError(f"{wanted} has no decimal in {unit}")
+    return _spelled_out(*meant)
+
+
+def _digits(value: Fraction) -> tuple[int, int] | None:
+    """Return whole digits and a power of ten, if a number is a decimal that is not too long."""
+    rest, twos, fives = value.denominator, 0, 0
+    while rest % 2 == 0:
+        rest, twos = rest // 2, twos + 1
+    while rest % 5 == 0:
+        rest, fives = rest // 5, fives + 1
+    if rest != 1:
+        return None
+    tens = max(twos, fives)
+    whole = value.numerator * 2 ** (tens - twos) * 5 ** (tens - fives)
+    power = -tens
+    while whole and whole % 10 == 0:
+        whole, power = whole // 10, power + 1
+    return (whole, power) if len(str(abs(whole))) <= _MOST_DIGITS else None
+
+
+def _spelled_out(whole: int, power: int) -> str:
+    """Return a decimal with its digits in groups, or as a power of ten where that reads better."""
+    digits, sign = str(abs(whole)), "-" if whole < 0 else ""
+    if not -4 <= len(digits) + power <= 12:  # digits before the point
+        return f"{sign}{digits[0]}{'.' * (len(digits) > 1)}{digits[1:]}e{power + len(digits) - 1}"
+    digits += "0" * max(0, power)
+    before, after = (digits[:power], digits[power:]) if power < 0 else (digits, "")
+    if power < 0 and len(digits) <= -power:
+        before, after = "0", digits.rjust(-power, "0")
+    return f"{sign}{int(before):,}".replace(",", " ") + (f".{after}" if after else "")

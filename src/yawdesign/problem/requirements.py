@@ -123,9 +123,9 @@ def written(requirements: object) -> dict[str, object]:
     found: dict[str, object] = {}
     for each in requirements if isinstance(requirements, (tuple, list)) else ():
         if each.of_cases:
-            found.setdefault("cases", {})[each.measure] = float(each.wanted)  # type: ignore[index]
+            found.setdefault("cases", {})[each.measure] = each.wanted  # type: ignore[index]
         else:
-            found[each.name] = float(each.wanted)
+            found[each.name] = each.wanted
     return found
 
 

@@ -3,11 +3,20 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, is_dataclass
-from typing import Any
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+from .data_frames import chosen_table, data_frame, only_row, tables_in
+from .notebook_view import NotebookView
+from .result_workbook import result_sheets
+from .workbook_writing import write_workbook
+
+if TYPE_CHECKING:
+    import pandas
 
 
 @dataclass(frozen=True, repr=False)
-class Result:
+class Result(NotebookView):
     """A result: its attributes are the keys of `to_dict`."""
 
     def _entries(self) -> Mapping[str, Any]:
@@ -17,6 +26,54 @@ class Result:
     def to_dict(self) -> dict[str, Any]:
         """Return plain data in SI that JSON can hold; what does not exist is None, a complex number is [re, im]."""
         return {name: plain(value) for name, value in self._entries().items()}
+
+    def to_pandas(self, of: str | None = None) -> "pandas.DataFrame":
+        """Return one of its tables as a table of pandas, with a row for each entry; one row if it has no table.
+
+        Parameters
+        ----------
+        of : str, optional
+            Which: the name of an attribute that has entries, such as ``"requirements"``; the first of them if not
+            given. Values are in SI units, those of the columns stand in ``attrs["units"]``.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ProblemError
+            If there is no such table, or pandas is not installed.
+        """
+        tables = self._tables()
+        if not tables and of is None:
+            return data_frame(only_row(self), self._units())
+        return data_frame(tables[chosen_table(self, tables, of)], self._units())
+
+    def to_excel(self, path: str | PathLike[str], *, replace: bool = False) -> None:
+        """Write its tables as a workbook, a sheet each, with SI units in the heads and where it comes from.
+
+        Parameters
+        ----------
+        path : path
+            Its name ends in .xlsx.
+        replace : bool
+            Whether another file may be replaced.
+
+        Raises
+        ------
+        ProblemError
+            If there is a file and it may not be replaced, or openpyxl is not installed (``yawdesign[excel]``).
+        """
+        write_workbook(path, result_sheets(self, self._tables(), self._units()), replace=replace)
+
+    def _tables(self) -> dict[str, Mapping[str, Any]]:
+        """Return its tables by name, the first one first: columns by name."""
+        return dict(tables_in(self))
+
+    def _units(self) -> Mapping[str, str]:
+        """Return the SI units of columns that mean something else elsewhere."""
+        return {}
 
     def __repr__(self) -> str:
         rows = [(name, _cell(value)) for name, value in self._entries().items()]

@@ -82,13 +82,18 @@ class Curve:
         mistakes, given = Mistakes(), self.V_r
         with mistakes.under("curve"):
             check_fields(self)
-            CURVE["V_r"].accept(given, doubtful=self.V_r**2 / self.R > MOST_ACCELERATION)
+            CURVE["V_r"].accept(given, doubtful=is_fast_for(self.V_r, self.R))
         with mistakes.under("curve.load"):
             as_choice(self.load, LOADS)
         mistakes.report()
 
 
 CURVE = table(Curve)
+
+
+def is_fast_for(V_r: object, R: object) -> bool:
+    """Return whether a speed is too high for a curve, and may have been meant in another unit."""
+    return bool(CURVE["V_r"].check(V_r) ** 2 / CURVE["R"].check(R) > MOST_ACCELERATION)
 
 
 MOST_SPEEDS = 1000

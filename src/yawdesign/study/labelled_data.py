@@ -3,7 +3,7 @@
 import csv
 import io
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from os import PathLike
@@ -133,6 +133,18 @@ class LabelledData(Result):
             data.to_netcdf(file, engine=h5netcdf.__name__)
             write_whole(Path(path), file.read_bytes(), replace=replace)
 
+    def _tables(self) -> dict[str, Mapping[str, Any]]:
+        points = block(self.axes, 0, self.finished.size)
+        columns = {name: column.tolist() for name, column in self._single_columns(lambda name, _: name)}
+        return {"points": {**points, **columns, "checked": self.known.ravel()}}
+
+    def _units(self) -> Mapping[str, str]:
+        units = {axis.name: axis.unit for axis in self.axes}
+        for name, column in self.columns.items():
+            several = range(column.shape[-1] + 1) if column.ndim > self.finished.ndim else ()
+            units |= dict.fromkeys((name, *(f"{name}_{k}" for k in several)), UNITS[name])
+        return units
+
     def _origin(self) -> str:
         """Return where it comes from, as JSON."""
         return json.dumps(plain(self.provenance))
@@ -142,7 +154,7 @@ class LabelledData(Result):
 
     def _lines(self) -> Iterator[list[Any]]:
         """Yield the lines of the table, its head first."""
-        columns = dict(self._single_columns())
+        columns = dict(self._single_columns(_title))
         titles = [_title(axis.name, axis.unit) for axis in self.axes]
         yield [*titles, *columns, "checked"]
         for start in range(0, self.finished.size, LINES):
@@ -151,15 +163,16 @@ class LabelledData(Result):
             cells += [_cells(x[start:stop]) for x in columns.values()]
             yield from map(list, zip(*cells, self.known.ravel()[start:stop].astype(int).tolist(), strict=True))
 
-    def _single_columns(self) -> Iterator[tuple[str, Array]]:
+    def _single_columns(self, title: Callable[[str, str], str]) -> Iterator[tuple[str, Array]]:
+        """Yield all columns as those of a table, with what `title` makes of name and unit."""
         for name, column in self.columns.items():
             if column.ndim == self.finished.ndim:
-                yield _title(name, UNITS[name]), column.ravel()
+                yield title(name, UNITS[name]), column.ravel()
             else:
                 # The number of unstable roots stands below the first critical value, between it and the second, ...
                 first = 0 if name == "unstable_roots" else 1
                 for k in range(column.shape[-1]):
-                    yield _title(f"{name}_{k + first}", UNITS[name]), column[..., k].ravel()
+                    yield title(f"{name}_{k + first}", UNITS[name]), column[..., k].ravel()
 
 
 def _title(name: str, unit: str) -> str:

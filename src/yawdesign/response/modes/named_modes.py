@@ -1,7 +1,7 @@
 """The modes of a vehicle: frequency, damping, shape, and what takes part in each."""
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,7 +12,8 @@ from yawdesign.hunting.arrays import Complex, Float
 from yawdesign.hunting.chosen_condition import AS_WRITTEN, Asked, chosen
 from yawdesign.hunting.eigenvalues import EXACT, backward_error, folded_matrix
 from yawdesign.hunting.verdict import Mode, least_stable
-from yawdesign.problem import Problem
+from yawdesign.problem import Problem, ProblemError
+from yawdesign.problem.diagnostics import unknown_key
 from yawdesign.problem.result import Result
 from yawdesign.response.modes.eigenvectors import unfold, whole_vector
 from yawdesign.response.modes.names import NamedRoot, named_roots
@@ -69,7 +70,7 @@ class NamedMode(Mode):
 
 @dataclass(frozen=True, repr=False)
 class Modes(Result):
-    """All modes of a vehicle at one speed.
+    """All modes of a vehicle at one speed: ``modes["frame yaw"]`` is one of them, by its name or its place.
 
     Parameters
     ----------
@@ -102,6 +103,21 @@ class Modes(Result):
     parameters: Mapping[str, float]
     checked: bool
     condition: Mapping[str, Any]
+
+    def __getitem__(self, which: str | int) -> NamedMode:
+        """Return the mode with a name, or at a place in their order."""
+        if not isinstance(which, str):
+            return self.modes[which]
+        named = {mode.name: mode for mode in self.modes}
+        if which not in named:
+            raise ProblemError(f"mode {which!r} {unknown_key(which, tuple(named))}; modes: {', '.join(named)}")
+        return named[which]
+
+    def __iter__(self) -> Iterator[NamedMode]:
+        return iter(self.modes)
+
+    def __len__(self) -> int:
+        return len(self.modes)
 
 
 def modes(problem: Problem, *, condition: Asked = AS_WRITTEN) -> Modes:

@@ -56,11 +56,15 @@ class StationaryResponse(Result):
     method: str
     condition: Mapping[str, Any]
 
+    def _tables(self) -> dict[str, Mapping[str, Any]]:
+        inputs = {which: [sizes[name] for name in self.rms] for which, sizes in self.rms_of.items()}
+        return {"rms": {"name": list(self.rms), "rms": list(self.rms.values()), **inputs}}
+
 
 def stationary_response(
     problem: Problem, track: Any = "german-low", *, speed: Any = None, condition: Asked = AS_WRITTEN
 ) -> StationaryResponse:
-    """Return the stationary root mean square of every response, by integrating |H|^2 S over the band.
+    """Return the stationary root mean square of every response, an integral over the spectrum.
 
     Parameters
     ----------

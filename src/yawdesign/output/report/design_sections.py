@@ -1,0 +1,163 @@
+"""Sections on the choice: stable damping, before and after, the front, the catalogue, what moves the answer."""
+
+import textwrap
+from collections.abc import Iterator
+from math import isinf
+from typing import TYPE_CHECKING, Any
+
+from yawdesign.output.choice_tables import choice_tables
+from yawdesign.output.plots import plot
+from yawdesign.output.report.drawings import bars, marked
+from yawdesign.output.report.fragments import Section, figure, paragraph, tables
+from yawdesign.output.report.verdict import MARGINS
+from yawdesign.output.tables import damping, facts, margin, titled
+from yawdesign.output.trade_off_tables import trade_off_tables
+from yawdesign.output.uncertainty_tables import uncertainty_tables
+from yawdesign.problem import PARAMETERS, format_quantity, to_unit
+
+if TYPE_CHECKING:
+    from yawdesign.damper.optimum import Optimum
+    from yawdesign.study.design_review import DesignReview
+
+SHOWN, LINE = 12, 34  # sensitivities, signs of a name in a line
+
+
+def intervals(review: "DesignReview") -> Section:
+    """Return where the yaw damping is stable, and where the design lies in that."""
+    forward, chosen = review.forward, review.optimum.C_s
+    axes = plot(forward)
+    if chosen is not None:
+        text = f"{format_quantity(chosen, 'kN·s/m', 4)}, this design"
+        marked(axes, "design", [(to_unit(chosen, "kN·s/m"), 0.5)], label=text, transform=axes.get_xaxis_transform())
+    rows = [("stable for C_s in", _intervals(review)), ("C_sl, least stable", damping(forward.C_sl))]
+    rows += [("C_su, curve's limit", damping(forward.C_su)), ("C_s, golden section between them", damping(forward.C_s))]
+    rows += [("C_s of this design", damping(chosen))] if chosen is not None else []
+    ends = f"C_sl = {damping(forward.C_sl)}, C_su = {damping(forward.C_su)}"
+    told = f"Stable for C_s in {_intervals(review)}; {ends}, this design {damping(chosen)}."
+    return Section(
+        "intervals",
+        "Stable yaw damping",
+        figure(
+            axes,
+            "intervals-picture",
+            "Stable intervals of the yaw damping",
+            told,
+            f"With the bogie of this design. Forward design: {forward.status}, {forward.message}.",
+        )
+        + tables(facts("Yaw damping of the pair", rows)),
+    )
+
+
+def _intervals(review: "DesignReview") -> str:
+    found = review.forward.stable_intervals
+    return (
+        " and ".join(f"{damping(low)} ... {'any' if isinf(high) else damping(high)}" for low, high in found) or "none"
+    )
+
+
+def before_and_after(review: "DesignReview") -> Section | None:
+    """Return the design variables and the margins as written and as handed in."""
+    optimum = review.optimum
+    if optimum.margin is None:
+        return None
+    table = titled("Before and after", "", "as written", "golden section", "this design")
+    golden = review.front.golden if review.front else None
+    for name, bound in optimum.bounds.items():
+        row = PARAMETERS[name]
+        values = (optimum.before.get(name), golden.get(name) if golden else None, bound.value)
+        table.add_row(
+            f"{name}, {row.meaning}", *("not given" if x is None else format_quantity(x, row.unit) for x in values)
+        )
+    between = margin(golden["margin"], optimum.objective) if golden else "not given"
+    table.add_row(
+        MARGINS[optimum.objective],
+        margin(optimum.margin_before, optimum.objective),
+        between,
+        margin(optimum.margin, optimum.objective),
+    )
+    written = review.front.written if review.front else None
+    if optimum.rotational_resistance is not None:
+        resistances = (x["rotational_resistance"] if x else None for x in (written, golden))
+        cells = ["not given" if x is None else f"{x:.5f}" for x in resistances]
+        table.add_row("rotational resistance T/(4Qa)", *cells, f"{optimum.rotational_resistance:.5f}")
+    stable = [
+        _yes(review.before.stable if review.before else None),
+        _yes(golden["stable"] if golden else None),
+        _yes(optimum.stable),
+    ]
+    table.add_row("stable under every condition", *stable)
+    worst = f"Limits that are reached: {', '.join(optimum.active) or 'none'}."
+    return Section("change-of-design", "Before and after", _places(review.optimum) + tables(table) + paragraph(worst))
+
+
+def _yes(value: bool | None) -> str:
+    return {None: "not given", True: "yes", False: "NO"}[value]
+
+
+def _places(optimum: "Optimum") -> str:
+    told = "; ".join(f"{name} at {100 * x.position:.0f} % of its range" for name, x in optimum.bounds.items())
+    return figure(plot(optimum), "places", "Place of each design variable between its bounds", f"{told}.")
+
+
+def front(review: "DesignReview") -> Section | None:
+    """Return how much margin each rotational resistance allows."""
+    if review.front is None:
+        return None
+    first, last = review.front.front[0], review.front.front[-1]
+    told = "From {:.4f} with {} to {:.4f} with {}, in {} points.".format(
+        first["rotational_resistance"],
+        margin(first["margin"], review.front.objective),
+        last["rotational_resistance"],
+        margin(last["margin"], review.front.objective),
+        len(review.front.front),
+    )
+    drawn = figure(plot(review.front), "front-picture", "Margin over rotational resistance", told)
+    return Section("front", "Margin against rotational resistance", drawn + tables(trade_off_tables(review.front)))
+
+
+def catalogue(review: "DesignReview") -> Section | None:
+    """Return the dampers of the catalogue, the best first."""
+    if review.choice is None:
+        return None
+    best = review.choice.best
+    told = f"Best: {best.name}." if best else "No damper keeps all limits."
+    drawn = figure(plot(review.choice), "catalogue-picture", "Margin of each damper over its damping", told)
+    note = paragraph("The dampers are ranked with all other variables as written; the design above moves those too.")
+    return Section("catalogue", "Dampers of the catalogue", drawn + note + tables(choice_tables(review.choice)))
+
+
+def sensitivity(review: "DesignReview") -> Section | None:
+    """Return what moves C_sl, and what uncertain parameters do to the margin."""
+    body = "\n".join(_sensitivities(review))
+    return Section("sensitivity", "What moves the answer", body) if body else None
+
+
+def _sensitivities(review: "DesignReview") -> Iterator[str]:
+    largest = sorted(review.forward.sensitivity.items(), key=lambda item: -abs(item[1]))[:SHOWN]
+    if largest:
+        names = [_named(name) for name, _ in largest]
+        values: list[float] = [value for _, value in largest]
+        axes = bars(names, values, "change of $C_\\mathrm{sl}$ for 1 % more [%]", [f"{x:+.3g}" for x in values])
+        told = f"1 % more of {largest[0][0]} changes C_sl by {values[0]:+.3g} %, of the others by less."
+        yield figure(axes, "tornado", "Sensitivities of the least stable yaw damping", told)
+    if review.uncertainty is not None:
+        yield from _uncertain(review.uncertainty)
+
+
+def _named(name: str) -> str:
+    meaning = PARAMETERS[name].meaning if name in PARAMETERS else "running speed"
+    return textwrap.fill(f"{name}: {meaning}", LINE)
+
+
+def _uncertain(result: Any) -> Iterator[str]:
+    for of, title in (
+        ("tornado", "What each uncertain parameter does to the margin"),
+        ("margin", "How the margin is distributed"),
+    ):
+        told = (
+            f"{title}, for one standard deviation to either side."
+            if of == "tornado"
+            else f"{title}: share of samples with less."
+        )
+        yield figure(plot(result, of=of), f"uncertain-{of}", title, told)
+    yield tables(uncertainty_tables(result))

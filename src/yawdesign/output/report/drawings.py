@@ -1,0 +1,85 @@
+"""Pictures that stand in this page only: bars by name, marks on maps, two curves beside each other."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from yawdesign.output import style
+from yawdesign.output.pictures import legend_below, literal, new_axes, own_texts
+from yawdesign.output.sweep_style import axis_label, axis_values
+from yawdesign.problem import to_unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from yawdesign.study.result import Sweep
+
+BAR, LINE, AROUND = (
+    0.16,
+    0.16,
+    1.0,
+)  # heights [inch] of a bar, a line of its name, and of what stands around all of them
+ROOM = 0.2  # for the numbers beside the bars, in the width of the picture
+
+
+def bars(names: Sequence[str], values: Sequence[float], label: str, texts: Sequence[str]) -> "Axes":
+    """Draw values by name, the first on top: those below zero hatched, each with its number."""
+    with own_texts():
+        ax = new_axes(None)
+        lines = max(name.count("\n") for name in names) + 1
+        ax.get_figure(root=True).set_size_inches(style.WIDTH, AROUND + (BAR + LINE * lines) * len(names))  # type: ignore[union-attr]
+        ax.spines["left"].set_visible(False)
+        ax.tick_params(axis="y", length=0)
+        for row, (value, text) in enumerate(zip(values, texts, strict=True)):
+            look = style.area(style.UNSTABLE) if value < 0 else {"facecolor": style.CHOSEN}
+            ax.barh(row, value, height=0.62, **look)
+            side, align = (4, "left") if value >= 0 else (-4, "right")
+            ax.annotate(
+                text, (value, row), (side, 0), textcoords="offset points", ha=align, va="center", fontsize="small"
+            )
+        ax.axvline(0, color=style.LIMIT, linewidth=0.8)
+        ax.set_yticks(
+            range(len(names)), ["\n".join(map(literal, name.split("\n"))) for name in names], fontsize="small"
+        )
+        ax.set(ylim=(len(names) - 0.4, -0.6), xlabel=label)
+        low, high = min(0.0, *values), max(0.0, *values)
+        ax.set_xlim(low - ROOM * (high - low) * (low < 0), high + ROOM * (high - low) * (high > 0))
+    return ax
+
+
+MARKS: dict[str, dict[str, Any]] = {
+    "design": {"marker": "D", "markersize": 8, "markerfacecolor": style.CHOSEN, "markeredgecolor": "white"},
+    "before": {"marker": "s", "markersize": 7, "markerfacecolor": "white", "markeredgecolor": style.BEFORE},
+    "condition": {"marker": "o", "markersize": 4, "markerfacecolor": style.LIMIT, "markeredgecolor": "white"},
+}
+
+
+def marked(ax: "Axes", kind: str, points: Sequence[tuple[float, float]], **more: Any) -> "Axes":
+    """Mark points of a picture by the sign of a kind, one of `MARKS`; `more` goes to Matplotlib."""
+    with own_texts():
+        x, y = zip(*points, strict=True)
+        ax.plot(x, y, linestyle="none", zorder=5, clip_on=False, **MARKS[kind], **more)
+        if "label" in more:
+            legend_below(ax)
+    return ax
+
+
+def of_design(ax: "Axes") -> "Axes":
+    """Call the point that a map marks by its name in this page: there the design stands in the place of the problem."""
+    legend = ax.get_legend()
+    for text in legend.get_texts() if legend else ():
+        text.set_text(text.get_text().replace("as written", "this design"))
+    return ax
+
+
+def curves_over(sweeps: "Sequence[Sweep]", names: Sequence[str], unit: str, label: str) -> "Axes":
+    """Draw the values of sweeps over the same axis."""
+    with own_texts():
+        ax = new_axes(None)
+        for k, (sweep, name) in enumerate(zip(sweeps, names, strict=True)):
+            x, y = axis_values(sweep.axes[0]), sweep.main * to_unit(1.0, unit)
+            ax.plot(x, y, label=name, **style.line_of(k))
+        ax.set(xlim=(x[0], x[-1]), xlabel=axis_label(sweeps[0].axes[0]), ylabel=f"{label} [{unit}]")
+        ax.set_ylim(bottom=0)
+        ax.grid(visible=True)
+        legend_below(ax)
+    return ax
