@@ -9,6 +9,7 @@ import contextlib
 import io
 import os
 import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -44,6 +45,15 @@ def blocks(page: Path) -> list[Block]:
             found.append(Block(language, inside, mark or "", "", text.count("\n", 0, match.start(2)) + 1))
         end = match.end()
     return found
+
+
+def prepare(folder: Path) -> None:
+    """Put into a folder what the pages take for granted: problem files, and the examples of the repository."""
+    root = Path(__file__).parents[1]
+    for name, file in {"problem.yaml": "table1.yaml", "vehicle.yaml": "vehicle.yaml"}.items():
+        shutil.copy(root / "problems" / file, folder / name)
+    for name in ("problems", "examples"):
+        shutil.copytree(root / name, folder / name)
 
 
 def run(page: Path, folder: Path) -> None:

@@ -1,11 +1,13 @@
 """A headless browser that is driven over two pipes, by its DevTools protocol: the standard library is enough."""
 
 import base64
+import contextlib
+import fcntl
 import json
 import os
 import select
 import shutil
-import subprocess
+import signal
 import tempfile
 import time
 from pathlib import Path
@@ -33,6 +35,18 @@ def found():
     return next(filter(None, map(shutil.which, NAMES)), None)
 
 
+def _started(command, incoming, outgoing):
+    """Return the number of a process that has the protocol on its descriptors 3 and 4, where it looks for it."""
+    # Out of the way of both first: a pipe may have one of these numbers already.
+    incoming, outgoing = (fcntl.fcntl(x, fcntl.F_DUPFD_CLOEXEC, 10) for x in (incoming, outgoing))
+    actions = [(os.POSIX_SPAWN_OPEN, k, os.devnull, os.O_RDWR, 0) for k in range(3)]
+    actions += [(os.POSIX_SPAWN_DUP2, incoming, 3), (os.POSIX_SPAWN_DUP2, outgoing, 4)]
+    process = os.posix_spawn(command[0], command, os.environ, file_actions=actions)
+    os.close(incoming)
+    os.close(outgoing)
+    return process
+
+
 class Browser:
     """A running browser; leave it by `with`."""
 
@@ -40,12 +54,7 @@ class Browser:
         self._folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         theirs_in, ours_out = os.pipe()
         ours_in, theirs_out = os.pipe()
-        command = [found(), *FLAGS, f"--user-data-dir={self._folder.name}", "about:blank"]
-        # The protocol stands on the descriptors 3 and 4.
-        redirected = ["sh", "-c", f'exec "$0" "$@" 3<&{theirs_in} 4>&{theirs_out}', *command]
-        self._process = subprocess.Popen(
-            redirected, pass_fds=(theirs_in, theirs_out), stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
+        self._process = _started([found(), *FLAGS, f"--user-data-dir={self._folder.name}"], theirs_in, theirs_out)
         os.close(theirs_in)
         os.close(theirs_out)
         self._in, self._out, self._buffer, self._number = ours_in, ours_out, b"", 0
@@ -55,12 +64,13 @@ class Browser:
         return self
 
     def __exit__(self, *_):
-        try:
+        with contextlib.suppress(OSError, TimeoutError, EOFError):
             self.send("Browser.close")
-            self._process.wait(10)
-        except (OSError, TimeoutError, EOFError, subprocess.TimeoutExpired):
-            self._process.kill()
-            self._process.wait()
+        deadline = time.monotonic() + 10
+        while not os.waitpid(self._process, os.WNOHANG)[0]:
+            if time.monotonic() > deadline:
+                os.kill(self._process, signal.SIGKILL)
+            time.sleep(0.02)
         os.close(self._in)
         os.close(self._out)
         self._folder.cleanup()

@@ -169,13 +169,28 @@ def mutated():
     return mutate
 
 
-@pytest.fixture(scope="session")
-def independent():
-    """Return the module that writes the equations a second time, with nothing of the package."""
-    spec = importlib.util.spec_from_file_location("independent", Path(__file__).parent / "vehicle" / "independent.py")
+def _module(path):
+    """Return a module of the tests that no test is in."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """A running browser without a window; the test is skipped where there is none."""
+    pipes = _module(Path(__file__).parent / "browser.py")
+    if not pipes.found():
+        pytest.skip(pipes.MISSING)
+    with pipes.Browser() as running:
+        yield running
+
+
+@pytest.fixture(scope="session")
+def independent():
+    """Return the module that writes the equations a second time, with nothing of the package."""
+    return _module(Path(__file__).parent / "vehicle" / "independent.py")
 
 
 @pytest.fixture(scope="session")

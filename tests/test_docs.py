@@ -3,7 +3,6 @@
 import importlib.util
 import itertools
 import re
-import shutil
 import sys
 import tomllib
 import warnings
@@ -95,10 +94,7 @@ def test_every_block_is_run_or_read_by_a_test(page):
 @pytest.mark.parametrize("page", [page for page in PAGES if page.stem in RUN_HERE], ids=lambda page: page.stem)
 def test_a_page_runs(page, tmp_path, monkeypatch):
     """The blocks run one after the other, in a folder with a problem file, and print what the page says."""
-    for name, file in {"problem.yaml": "table1.yaml", "vehicle.yaml": "vehicle.yaml"}.items():
-        shutil.copy(ROOT / "problems" / file, tmp_path / name)
-    for name in ("problems", "examples"):
-        shutil.copytree(ROOT / name, tmp_path / name)
+    BLOCKS.prepare(tmp_path)
     monkeypatch.setenv("CFLAGS", "-O0")
     BLOCKS.run(page, tmp_path)
     plt.close("all")
@@ -116,6 +112,25 @@ def test_commands_that_install_are_run_in_continuous_integration():
             assert words in here or words.replace("install ", "install -q ") in here, command
 
 
+def test_all_pictures_stand_on_one_page_and_are_drawn_by_one_script():
+    figures = ROOT / "docs" / "figures"
+    named = re.findall(r"\(figures/(\S+?)\)", (ROOT / "docs" / "pictures.md").read_text(encoding="utf-8"))
+    assert sorted(named) == sorted(path.name for path in figures.iterdir() if path.suffix in (".png", ".svg"))
+    drawing = of_file(ROOT / "docs" / "draw_pictures.py")
+    code = "".join((ROOT / script).read_text(encoding="utf-8") for script in drawing.SCRIPTS)
+    lines = "".join(block.text for page in drawing.PAGES for block in BLOCKS.blocks(ROOT / "docs" / page))
+    for name in named:
+        stem = re.sub(r"^fig[45]$", "fig{number}", Path(name).stem)
+        drawn = stem in code or name in lines or name == "rooms.svg"
+        assert drawn, f"docs/draw_pictures.py does not draw {name}"
+
+
+def test_every_public_name_stands_in_the_reference():
+    pages = "".join(page.read_text(encoding="utf-8") for page in (ROOT / "docs" / "api").glob("*.md"))
+    named = re.findall(r"^\.\. auto\w+:: yawdesign\.(\w+)$", pages, re.MULTILINE)
+    assert sorted(named) == sorted(yd.__all__)
+
+
 @every_page
 def test_extras_that_a_page_installs_exist(page):
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
@@ -125,7 +140,7 @@ def test_extras_that_a_page_installs_exist(page):
 
 @every_page
 def test_problem_files_on_a_page_can_be_read(page, tmp_path, monkeypatch):
-    """A part of one can be read with what it lacks from Table I; what a page shows as mistaken has its messages behind it."""
+    """A part of one is read with the rest from Table I; what a page shows as mistaken has its messages behind it."""
     monkeypatch.chdir(tmp_path)
     found = BLOCKS.blocks(page)
     for file in (block for block in found if block.mark.startswith("file ")):

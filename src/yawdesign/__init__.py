@@ -31,6 +31,8 @@ def _public(name: str) -> Any:
     if not isinstance(found, FunctionType):
         return found
     function: Any = import_module("yawdesign.problem.arguments").checked(found)
+    if "progress" in found.__annotations__:
+        function = import_module("yawdesign.output.progress_shown").with_bar_in_notebooks(function)
     function.__module__, function.__qualname__ = __name__, name  # where pickle finds it
     return function
 

@@ -3,6 +3,7 @@
 import io
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from rich.console import Console
 
@@ -22,7 +23,9 @@ def result():
 def test_time_history(result):
     ax = yd.plot(result)
     assert ax.get_ylabel() == "Lateral displacement of the frame [mm]"
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["250 km/h", "300 km/h"]
+    decays = [f"{v} km/h: free motion decays by {rate} 1/s" for v, rate in ((250, 1.68), (300, 1.37))]
+    assert legend(ax) == decays
+    assert "started from stationary motion" in title(ax)
     assert ax.lines[1].get_ydata() == pytest.approx(1e3 * result.histories[1]["y_b"])
     part = yd.plot(result, response="yaw_damper_force", speeds=[300 / 3.6], until=1.0)
     assert part.get_ylabel() == "Yaw damper force [kN]"
@@ -35,24 +38,94 @@ def test_frequency_response():
     response = yd.frequency_response(PROBLEM, [10, 20, 40])
     ax = yd.plot(response)
     assert ax.lines[0].get_ydata() == pytest.approx(abs(response.y_b))
-    assert ax.get_xlabel() == "frequency [Hz]"
-    assert ax.figure.axes[1].lines[0].get_ydata() == pytest.approx(abs(response.phi_b))
+    lower = ax.figure.axes[1]
+    assert lower.get_xlabel() == "frequency [Hz]"
+    assert lower.lines[0].get_ydata() == pytest.approx(abs(response.phi_b))
+    with pytest.raises(yd.ProblemError, match="give several"):
+        yd.plot(yd.frequency_response(PROBLEM))
     assert "unstable" in yd.plot(yd.frequency_response(PROBLEM.replace(C_s=5e4), [10, 20])).get_title("left")
 
 
 def test_spectrum_and_damper(result):
     ax = yd.plot(yd.spectrum_check(length="5 km"))
     assert "rad/m" in ax.get_xlabel()
-    assert "Welch" in ax.get_legend().get_texts()[0].get_text()
+    assert "Welch" in legend(ax)[0]
     given = ax.figure.add_subplot()
     assert yd.plot(result.damper, given) is given
     assert given.get_ylabel() == "|Z| of the pair [MN/m]"
+
+
+def test_the_damper_is_a_curve_between_what_it_is_made_of(result):
+    damper = result.damper
+    ax = yd.plot(damper)
+    for z in damper.over_frequency:
+        Z = damper.complex_stiffness(z.frequency)
+        assert (abs(Z), np.angle(Z)) == pytest.approx((z.stiffness, z.phase))
+    curve, alone = ax.lines[:2]
+    assert len(curve.get_xdata()) > 100
+    assert np.all(curve.get_ydata() < np.minimum(alone.get_ydata(), damper.K_ds / 1e6))
+    assert any(
+        text.startswith(f"at the hunting, {damper.hunting_frequency:.3g} Hz") for text in legend(ax.figure.axes[1])
+    )
+
+
+def test_a_long_run_is_an_envelope():
+    run = yd.simulate(PROBLEM, speed="300 km/h", duration=20, step="2 ms")
+    ax = yd.plot(run)
+    upper, lower = ax.figure.axes
+    high, low = (line.get_ydata() for line in upper.lines[:2])
+    values = 1e3 * run.histories[0]["y_b"]
+    assert max(high) == pytest.approx(values.max())
+    assert min(low) == pytest.approx(values.min())
+    start, stop = lower.get_xlim()
+    inside = (run.histories[0].time >= start) & (run.histories[0].time <= stop)
+    assert max(abs(values[inside])) == pytest.approx(max(abs(values)))
+    assert "free motion decays by 1.37 1/s" in title(ax)
+    assert len(yd.plot(run, until=5.0).figure.axes) == 1
+    several = yd.simulate(PROBLEM, speed=["250 km/h", "300 km/h"], duration=15, step="2 ms")
+    assert [panel.get_title("left") for panel in yd.plot(several).figure.axes[1:]] == [
+        "300 km/h: free motion decays by 1.37 1/s"
+    ]
+
+
+def test_growth_is_drawn_beside_the_motion_that_grows():
+    run = yd.simulate(PROBLEM.replace(C_s=4e4), speed="300 km/h", duration=6, step="2 ms", start="rest")
+    ax = yd.plot(run)
+    grown = next(line for line in ax.lines if line.get_label().startswith("growth by"))
+    t, y = grown.get_data()
+    assert np.log(y[-1] / y[0]) / (t[-1] - t[0]) == pytest.approx(run.runs[0].spectral_abscissa)
+    assert max(abs(ax.lines[0].get_ydata())) <= max(y) * (1 + 1e-9)
+    assert f"free motion grows by {run.runs[0].spectral_abscissa:.3g} 1/s" in title(ax)
+    assert "started from rest" in title(ax)
+
+
+def test_stationary_responses_are_bars(vehicle):
+    found = yd.stationary_response(vehicle)
+    ax = yd.plot(found)
+    lateral, yaw, accelerations, forces = ax.figure.axes
+    names = [text.get_text() for text in lateral.get_yticklabels()]
+    widths = {name: bar.get_width() for name, bar in zip(names, lateral.patches, strict=True)}
+    assert widths["frame, trailing"] == pytest.approx(1e3 * found.rms["y_b2"])
+    assert widths["car body, leading"] == pytest.approx(1e3 * found.rms["y_c1"])
+    alone = dict(zip(names, lateral.lines[0].get_xdata(), strict=True))
+    assert alone["car body"] == pytest.approx(1e3 * found.rms_of["alignment"]["y_c"])
+    assert [panel.get_xlabel() for panel in (yaw, accelerations, forces)] == [
+        "yaw [mrad]",
+        "lateral acceleration [m/s²]",
+        "force [kN]",
+    ]
+    assert len(forces.patches) == sum("force" in name and "pair" not in name for name in found.rms)
 
 
 @pytest.fixture(scope="module")
 def vehicle():
     body = CarBody(M_c=34500, J_c=1.521e6, I_c=124304, l_c=9.5, h_s=0.852, h_t=0.97, K_2z=610e3, C_2z=9800)
     return replace(yd.table1().replace(C_s="1 MN s/m"), car_body=body)
+
+
+def title(ax):
+    """Return a title as it is read: some of its blanks end no line."""
+    return ax.get_title("left").replace("\u00a0", " ")
 
 
 def legend(ax):
@@ -62,18 +135,21 @@ def legend(ax):
 def test_pictures_of_a_vehicle(vehicle):
     result = yd.simulate(vehicle, speed=["250 km/h", "300 km/h"], duration=3)
     ax = yd.plot(result)
-    assert ax.get_ylabel() == "Lateral acceleration of the car body above the bogie [m/s²]"
-    assert legend(ax) == [f"{end}, {v} km/h" for v in (250, 300) for end in ("leading", "trailing")]
+    assert ax.get_ylabel() == "Lateral acceleration of the car body above the\nbogie [m/s²]"
+    ends = [label.split(":")[0] for label in legend(ax)]
+    assert ends == [f"{end}, {v} km/h" for v in (250, 300) for end in ("leading", "trailing")]
     assert ax.lines[3].get_ydata() == pytest.approx(result.histories[1]["y_c2_acceleration"])
     both = yd.plot(result, response=["y_b1", "y_b2"], speeds=[300 / 3.6])
     assert legend(both) == ["leading", "trailing"]
-    assert "300 km/h" in both.get_title("left")
+    assert "300 km/h" in title(both)
     assert legend(yd.plot(result, response=["y_b1", "y_w12"], speeds=[300 / 3.6])) == ["y_b1", "y_w12"]
     with pytest.raises(yd.ProblemError, match="phi_b1 is counted in rad, y_b1 in m"):
         yd.plot(result, response=["y_b1", "phi_b1"])
     response = yd.plot(yd.frequency_response(vehicle, [10, 20]))
-    assert legend(response) == ["y_c", "y_b1", "y_b2"]
-    assert response.get_ylabel() == "Lateral displacement [m per m of alignment]"
+    assert legend(response.figure.axes[1]) == ["car body", "frame, leading", "frame, trailing"]
+    assert len({line.get_color() for line in response.lines}) == 3
+    assert {line.get_linestyle() for line in response.lines} == {"-", "--"}
+    assert response.get_ylabel() == "Lateral [m per\nm of alignment]"
 
 
 def test_tables_of_a_vehicle(vehicle):
@@ -85,7 +161,7 @@ def test_tables_of_a_vehicle(vehicle):
 
 def test_pictures_and_tables_of_rigid_dampers():
     damper = yd.simulate(yd.table1().replace(C_s="200 kN s/m", K_ds="rigid"), duration=3).damper
-    assert "joints rigid" in yd.plot(damper).get_title("left")
+    assert "rigid joints" in yd.plot(damper).get_title("left")
     assert "rigidly mounted" in printed(damper_tables(damper))
 
 

@@ -5,7 +5,7 @@ import logging
 import sys
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from signal import SIGINT
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -107,20 +107,11 @@ def warnings_told(kind: type[Warning] = RuntimeWarning) -> Iterator[None]:
         yield
 
 
-@contextmanager
-def progress_shown() -> "Iterator[Progress]":
-    """Show what is going on on standard error, if a person is looking."""
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+def progress_shown() -> "AbstractContextManager[Progress]":
+    """Show what is going on on standard error."""
+    from yawdesign.output.progress_shown import progress_on_stderr
 
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield lambda text, part: None
-        return
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task("starting", total=1.0)
-        yield lambda text, part: bar.update(task, description=text, completed=part)
+    return progress_on_stderr()
 
 
 def read_problem(path: str, changes: list[str] | None = None) -> "Problem":

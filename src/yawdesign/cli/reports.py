@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from yawdesign.cli.answering import (
+    Changes,
     Dask,
     Force,
     Jobs,
@@ -20,6 +21,7 @@ from yawdesign.output.streams import tell
 
 def report(
     file: ProblemFile,
+    changes: Changes = None,
     to: Annotated[str, typer.Option(metavar="FILE.html", help="The page.")] = "report.html",
     pdf: Annotated[
         str | None, typer.Option(metavar="FILE.pdf", help="Print it too, by a browser without a window.")
@@ -30,7 +32,7 @@ def report(
 ) -> None:
     """Write one HTML page for a design review: verdict, optimum, pictures, checks; it needs nothing but itself."""
     with mistakes_told():
-        problem = read_problem(file)
+        problem = read_problem(file, changes)
         from yawdesign.output.report.browser_print import find_browser, printed
         from yawdesign.output.report.report import PAGES, file_source, rendered
         from yawdesign.output.targets import Target, checked_targets
@@ -41,7 +43,7 @@ def report(
         targets = Target("--to", to, PAGES, replaced=force), Target("--pdf", pdf, (".pdf",), replaced=force)
         _, to_print = checked_targets(targets, [file])
         browser = find_browser() if to_print else ""
-        source = file_source(Path(file))
+        source = file_source(Path(file), changes or ())
         with workers(jobs, dask) as executor, progress_shown() as progress:
             review = design_review(problem, executor=executor, progress=progress)
             progress("drawing", 1.0)

@@ -17,6 +17,7 @@ from yawdesign.damper.search import search
 from yawdesign.damper.stencils import distinct, refine
 from yawdesign.hunting.arrays import Float
 from yawdesign.problem.arguments import Progress
+from yawdesign.problem.progress import between, rounds, unseen
 
 APART = 1e-3  # how far starts of the NLP must be from a better one
 MOST_REFINED = 8  # points after each turn of the NLP
@@ -60,9 +61,8 @@ def best_design(
     """
     if not space.demands or space.near is not None:
         return _best_of_all(space, seed, options, progress, spread, turns)
-    free, x = _best_of_all(
-        replace(space, demanding=False, known=space.known[:1]), seed, options, progress, spread, turns
-    )
+    alone = replace(space, demanding=False, known=space.known[:1])
+    free, x = _best_of_all(alone, seed, options, between(progress, 0.0, 0.5), spread, turns)
     asked: Space | None = replace(free, demanding=True, known=(free.conditions, *space.known[1:]))
     while asked is not None and asked.meets(x):
         space, asked = asked, asked.with_worst(x)
@@ -71,28 +71,29 @@ def best_design(
     values = asked.values(x)
     anchor = {name: float(np.squeeze(values[name])) for name in asked.names}
     known = replace(asked, anchors_given=(*asked.anchors_given, anchor))
-    return _best_of_all(known, seed, options, progress, spread, turns)
+    return _best_of_all(known, seed, options, between(progress, 0.5, 1.0), spread, turns)
 
 
 def _best_of_all(
     space: Space, seed: int, options: Mapping[str, Any], progress: Progress, spread: Map, turns: Turns
 ) -> tuple[Space, Float]:
-    pool = searched(space, seed, progress, spread)
+    every_round = rounds(progress)
+    pool = searched(space, seed, next(every_round), spread)
     x, at_search, polished = pool[:, 0], space, False
-    for _ in range(MOST_ROUNDS):
+    for _, told in zip(range(MOST_ROUNDS), every_round, strict=False):
         more = space.with_worst(x)
         if more is not None:
             space = more
-            progress(f"best design under {len(space.conditions)} conditions", 0.5)
+            told(f"best design under {len(space.conditions)} conditions", 0.0)
             pool = _refined(space, np.concatenate([x[:, None], pool[:, :POOL]], axis=1), seed)
             x, polished = pool[:, 0], False
         elif polished:
             break
         else:
             if at_search is not space:
-                pool = np.concatenate([x[:, None], searched(space, seed, progress, spread)], axis=1)
-                at_search = space
-            x, polished = _best(space, pool, seed, options, progress, turns), True
+                again = searched(space, seed, between(told, 0.0, 0.5), spread)
+                pool, at_search, told = np.concatenate([x[:, None], again], axis=1), space, between(told, 0.5, 1.0)
+            x, polished = _best(space, pool, seed, options, told, turns), True
     return space, x
 
 
@@ -122,7 +123,7 @@ def searched(space: Space, seed: int, progress: Progress, spread: Map = map) -> 
 
 
 def _search(space: Space, seed: int) -> Float:
-    return search(space, seed, lambda text, part: None)
+    return search(space, seed, unseen)
 
 
 def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progress: Progress, turns: Turns) -> Float:
@@ -134,11 +135,15 @@ def _best(space: Space, x: Float, seed: int, options: Mapping[str, Any], progres
     tried: set[bytes] = set()
     more = 1 if isinstance(improvers[0], LocalImprover) else searches(space)
     for turn, (starts, radius) in enumerate(turns):
-        progress("solving the NLP", turn / len(turns))
+        told = between(progress, turn / len(turns), (turn + 1) / len(turns))
         starts = min(starts * more, x.shape[1])
         chosen = [(x[:, k], float(margin[k])) for k in range(starts) if x[:, k].tobytes() not in tried]
         tried |= {start.tobytes() for start, _ in chosen}
-        reached = [y[:, None] for improver in improvers for start in chosen for y in improver.improve(*start)]
+        tasks = [(improver, start) for improver in improvers for start in chosen]
+        reached = []
+        for k, (improver, start) in enumerate(tasks):
+            told("solving the NLP", k / len(tasks))
+            reached += [y[:, None] for y in improver.improve(*start)]
         x = np.concatenate([x, *reached], axis=1)
         margin = space.margins_at(x)
         order = np.argsort(-margin, kind="stable")[:MOST_REFINED]

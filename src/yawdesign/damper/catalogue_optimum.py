@@ -5,7 +5,7 @@ is left out if it promises less than the best optimum by more than twice of what
 search and no proof.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -67,10 +67,11 @@ def best_of_catalogue(
         some = [each for each in batch if len(found) < least or each[1] + CREDIT * gain >= level]
         if not some:
             break
-        progress(f"optimising with {some[0][0].name}", len(found) / len(promised))
         tasks = [_without_catalogue(problem, damper) for damper, _ in some]
-        answers: Iterable[Optimum] = spread(optimised, tasks)
-        for (damper, promise), answer in zip(some, answers, strict=True):
+        answers: Iterator[Optimum] = iter(spread(optimised, tasks))
+        for damper, promise in some:
+            progress(f"optimising with {damper.name}", len(found) / len(promised))
+            answer = next(answers)
             margin = -np.inf if answer.margin is None else answer.margin
             found.append(((answer.status == "optimal", margin), damper, answer))
             if promise > -MISSED:

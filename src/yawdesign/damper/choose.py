@@ -10,8 +10,10 @@ from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress, as_executor
 from yawdesign.problem.conditions import condition_set
 from yawdesign.problem.damper_catalogue import CatalogueDamper
+from yawdesign.problem.progress import between
 from yawdesign.vehicle.vehicle import Vehicle
 
+ALL = 0.2  # share of the work that is done when all dampers have been looked at on arrays
 CLOSER = 10  # of the best, for which the worst condition is searched and all is computed twice
 LINEAR = (
     "blow_off and damping_after are shown and not computed with: above its blow-off force a damper gives less damping "
@@ -49,15 +51,20 @@ def choose(problem: Problem, *, executor: Any = None, progress: Progress = lambd
     """
     spread: Callable[..., Iterable[Candidate]] = map if executor is None else as_executor(executor).map
     dampers = catalogue_of(problem)
-    progress("all dampers on arrays", 0.0)
-    groups = in_groups(problem, dampers)
-    known = {each.name: each for group in groups for each in group.candidates()}
+    groups, known = in_groups(problem, dampers), dict[str, Candidate]()
+    for k, group in enumerate(groups):
+        progress(f"{len(dampers)} dampers on arrays", ALL * k / len(groups))
+        known |= {each.name: each for each in group.candidates()}
     rows = {damper.name: damper for damper in dampers}
+    done = ALL
     while todo := _next(known.values()):
-        closer = sum(each.searched for each in known.values())
-        progress(f"closer: {', '.join(each.name for each in todo[:3])} ...", min(0.1 + 0.08 * closer, 0.95))
+        told = between(progress, done, (1 + done) / 2)
         alone = [ScoredRows(problem, (rows[each.name],)) for each in todo]
-        known |= {each.name: each for each in spread(verified, alone, todo)}
+        answers = iter(spread(verified, alone, todo))
+        for k, each in enumerate(todo):
+            told(f"closer: {each.name}", k / len(todo))
+            known[each.name] = next(answers)
+        done = (1 + done) / 2
     ranked = sorted(known.values(), key=rank)
     curve = problem.curve
     linear = LINEAR if any(damper.blow_off is not None for damper in dampers) else ""

@@ -11,6 +11,7 @@ from yawdesign.damper.search import search
 from yawdesign.damper.stencils import refine
 from yawdesign.hunting.arrays import Bools, Float
 from yawdesign.problem.arguments import Progress
+from yawdesign.problem.progress import rounds
 
 MOST_ROUNDS = 10  # in which conditions are added
 KEPT = 6  # points that are refined to the end
@@ -56,8 +57,8 @@ class LeastResistance(Space):
             Called with a text and the share that is done.
         """
         space = self
-        for _ in range(MOST_ROUNDS):
-            found = search(space, seed, progress)
+        for _, told in zip(range(MOST_ROUNDS), rounds(progress), strict=False):
+            found = search(space, seed, told)
             if not found.shape[1]:
                 return None
             x = space.polished(found[:, :KEPT], seed)

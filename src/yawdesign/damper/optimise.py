@@ -28,6 +28,7 @@ from yawdesign.hunting.verdict import CaseVerdict, RequirementVerdict
 from yawdesign.hunting.worst_condition import worst_conditions
 from yawdesign.problem import Curve, Problem, ProblemError
 from yawdesign.problem.arguments import Progress, as_executor
+from yawdesign.problem.progress import between, unseen
 from yawdesign.problem.table import as_seed
 from yawdesign.vehicle.vehicle import Vehicle
 
@@ -71,22 +72,23 @@ def optimise(
         damper, best = best_of_catalogue(problem, alone, executor=executor, progress=progress)
         return replace(best, damper=damper.name, message=best.message.replace(Status.UNSTABLE.remedy, OF_CATALOGUE))
     spread = map if executor is None else as_executor(executor).map
-    found = _optimum(problem, seed, options or {}, progress, spread)
+    found = _optimum(problem, seed, options or {}, between(progress, 0.0, 0.6), spread)
     if found.status not in (Status.UNSTABLE, Status.NO_FEASIBLE_DESIGN):
         return found
     near = None if found.C_s is None else {name: bound.value for name, bound in found.bounds.items()}
-    changes = relaxations(problem, design=near, seed=seed, progress=progress)
+    changes = relaxations(problem, design=near, seed=seed, progress=between(progress, 0.6, 0.8))
     enough = [change.name for change in changes if change.met][:NAMED]
     remedy = (
         f"enough alone is a change of {' or '.join(enough)}" if enough else "no single change that was tried is enough"
     )
     message = found.message.replace(Status.UNSTABLE.remedy, remedy)
-    return replace(found, message=message, conflict=conflict(problem, seed=seed), relaxations=changes)
+    excluded = conflict(problem, seed=seed, progress=between(progress, 0.8, 1.0))
+    return replace(found, message=message, conflict=excluded, relaxations=changes)
 
 
 def _without_changes(problem: Problem, seed: int, options: Mapping[str, Any]) -> Optimum:
     """Return the best design of a damper of a catalogue."""
-    return _optimum(problem, seed, options, lambda text, part: None)
+    return _optimum(problem, seed, options, unseen)
 
 
 def _optimum(problem: Problem, seed: int, options: Mapping[str, Any], progress: Progress, spread: Map = map) -> Optimum:
@@ -96,7 +98,7 @@ def _optimum(problem: Problem, seed: int, options: Mapping[str, Any], progress: 
         raise ProblemError("bogie.C_s is missing: give its value, or make it a design variable")
     if space.curve is not None and not space.feasible(space.values(space.gentlest)):
         return _nothing(space, space.curve)
-    space, x = best_design(space, seed, options, progress, spread)
+    space, x = best_design(space, seed, options, between(progress, 0.0, 0.5), spread)
     merit = float(np.squeeze(space.margins_at(x[:, None])))
     capping = capping_modes(space, x) if space.model.has_car_body and merit > -MISSED else ()
     if capping:
@@ -104,16 +106,18 @@ def _optimum(problem: Problem, seed: int, options: Mapping[str, Any], progress: 
         values = space.values(x)
         anchor = {name: float(values[name]) for name in space.names}
         second = replace(space, pairs=len(capping), floor=(1 - GIVEN_AWAY) * merit, anchors_given=(anchor,))
-        space, x = best_design(second, seed, options, progress, spread)
-    return replace(_answer(space, x, capping), single_bogie=_single(space, seed, options))
+        space, x = best_design(second, seed, options, between(progress, 0.5, 0.8), spread)
+    progress("checking the best design", 0.8)
+    answer = _answer(space, x, capping)
+    return replace(answer, single_bogie=_single(space, seed, options, between(progress, 0.9, 1.0)))
 
 
-def _single(space: Space, seed: int, options: Mapping[str, Any]) -> SingleOptimum | None:
+def _single(space: Space, seed: int, options: Mapping[str, Any], progress: Progress) -> SingleOptimum | None:
     """Return what one bogie alone would have answered, and what that is worth under the car body."""
     problem = space.problem.of_one_bogie
     if problem is None or not set(space.names) <= set(problem.keys):
         return None
-    alone = _optimum(problem, seed, options, lambda text, part: None)
+    alone = _optimum(problem, seed, options, lambda _, part: progress("one bogie alone", part))
     if alone.margin is None:
         return SingleOptimum(alone.optimum, None, None, stable=False)
     chosen = {name: bound.value for name, bound in alone.bounds.items()}

@@ -159,7 +159,7 @@ def _of_design(space: RelaxedSpace, value: float, changed: Space, x: Float) -> R
     )
 
 
-def conflict(problem: Problem, *, seed: int = 0) -> tuple[str, ...]:
+def conflict(problem: Problem, *, seed: int = 0, progress: Progress = lambda text, part: None) -> tuple[str, ...]:
     """Return what a problem without an answer demands in vain: any of it can be had without one other, but not all.
 
     Parameters
@@ -168,6 +168,8 @@ def conflict(problem: Problem, *, seed: int = 0) -> tuple[str, ...]:
         Without an answer.
     seed : int, optional
         Of the search points.
+    progress : callable, optional
+        Called with a text and the share that is done, 0 ... 1.
 
     Returns
     -------
@@ -179,7 +181,8 @@ def conflict(problem: Problem, *, seed: int = 0) -> tuple[str, ...]:
     bounds = [f"design.variables.{name}" for name in problem.design.variables]
     curve = [] if problem.curve is None else ["curve.limit"]
     left = [*(f"requirements.{each.name}" for each in problem.requirements), STABILITY, *bounds, *curve]
-    for name in tuple(left):
+    for k, name in enumerate(every := tuple(left)):
+        progress(f"looking for a design without {name}", k / len(every))
         others = [one for one in left if one != name]
         if not _is_possible(_demanding(problem, others), 0.0 if STABILITY in others else -MISSED, seed):
             left = others

@@ -16,6 +16,7 @@ from yawdesign.damper.design_space import Space
 from yawdesign.damper.stencils import refine
 from yawdesign.hunting.arrays import Float, Index
 from yawdesign.problem.arguments import Progress
+from yawdesign.problem.progress import between
 
 BLOCK = 100_000  # points at once: enough to hide Python's overhead, few enough for any memory
 SLOW = 8192  # points in all, where verdicts take a thousand times as long
@@ -26,6 +27,7 @@ OTHERS = 4900  # points in the variables other than C_s
 LINE = 72  # points along C_s
 GAIN = 1e-4  # what a cell's best must be beaten by, relative: smaller differences are left to the refinement
 MOST_LOOKS = 40  # at the points of a block; as half of them are better than any one, about ten are needed
+REFINED_FROM = 0.6  # share of a search after which its best points are refined
 LOWEST = -1e9  # level of cells without a point: less than any merit
 MOST_SPLIT = 9  # variables whose axes are divided into cells: their number doubles with each
 
@@ -70,11 +72,12 @@ def search(space: Space, seed: int, progress: Progress) -> Float:
     blocks = list(_blocks(space, rng))
     most = SLOW // len(blocks) if space.is_slow else BLOCK
     for k, x in enumerate(blocks):
-        progress("searching the design space", k / len(blocks))
+        progress("searching the design space", REFINED_FROM * k / len(blocks))
         _look(space, cells, x[:, rng.permutation(x.shape[1])[:most]], floor)
     order = np.argsort(-cells.margin, kind="stable")[: STARTS * min(max(1, d - 2), MOST_SPLIT)]
     order = order[np.isfinite(cells.margin[order]) & (cells.margin[order] >= floor)]
-    return refine(space, cells.x[:, order], cells.margin[order], rng, progress=progress)
+    late = between(progress, REFINED_FROM, 1.0)
+    return refine(space, cells.x[:, order], cells.margin[order], rng, progress=late)
 
 
 def _near(space: Space, share: float, cells: _DesignCells, rng: np.random.Generator) -> float:

@@ -26,6 +26,7 @@ from yawdesign.hunting.scope import conditions_told
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress, as_executor
 from yawdesign.problem.condition import Condition
+from yawdesign.problem.progress import between, unseen
 from yawdesign.problem.stopping import held
 from yawdesign.problem.table import as_count, as_seed
 
@@ -130,13 +131,13 @@ class _Front:
             status = Status.NO_FEASIBLE_DESIGN
             return self._result((), status, status.told(excess(space.in_curve(values), space.names, curve)))
         gentle = LeastResistance(space.problem, level=LEAST[space.objective])
-        begin = gentle.gentlest_design(self.seed, self.progress)
+        begin = gentle.gentlest_design(self.seed, between(self.progress, 0.0, 0.2))
         if begin is None:
             status = Status.NO_FRONT if space.demands else Status.UNSTABLE
             return self._result((), status, status.message)
         first = _kept(*begin)
         space = Space(space.problem, known=first[0], anchors_given=({name: first[1][name] for name in space.names},))
-        best, x = best_design(space, self.seed, {}, _silent, turns=TURNS)
+        best, x = best_design(space, self.seed, {}, between(self.progress, 0.2, 0.3), turns=TURNS)
         last = self._last(_kept(best, x))
         return self._finished(first, last, count)
 
@@ -150,7 +151,7 @@ class _Front:
         given = ({name: values[name] for name in space.names},)
         level = margin - GAIN * abs(margin)
         there = LeastResistance(space.problem, known=known, level=level, anchors_given=given)
-        found = there.gentlest_design(self.seed, self.progress)
+        found = there.gentlest_design(self.seed, between(self.progress, 0.3, 0.35))
         last = last if found is None else _kept(*found)
         self.ends_at = self._resistance(last)
         return last
@@ -175,10 +176,10 @@ class _Front:
                 for place, *sides in places:
                     near = [solved[[*limits, end][side]] for side in sides] or [first, last]
                     tasks[limits[place]] = self._task(limits[place], near)
-                for limit, one in self._each(tasks):
+                for limit, one in self._each(tasks, len(solved) - 1, len(limits)):
                     solved[limit] = one
                     done = len(solved) - 1
-                    self.progress(f"{done} of {len(limits)} points of the front", done / len(limits))
+                    self.progress(f"{done} of {len(limits)} points of the front", _share(done, len(limits)))
             self._raise_beaten(solved)
         except (KeyboardInterrupt, BrokenExecutor) as error:
             with held():
@@ -194,11 +195,12 @@ class _Front:
         known = tuple(tuple(dict.fromkeys(chain(*parts))) for parts in zip(*(known for known, _ in near), strict=True))
         return _Task(_limited(self.problem, limit), known, tuple(values for _, values in near), self.seed)
 
-    def _each(self, tasks: Mapping[float, _Task]) -> Iterator[tuple[float, Solved]]:
-        """Yield the solutions in the order in which they come."""
+    def _each(self, tasks: Mapping[float, _Task], before: int, count: int) -> Iterator[tuple[float, Solved]]:
+        """Yield the solutions in the order in which they come; so many of all are solved before."""
         if self.executor is None:
-            for limit, task in tasks.items():
-                yield limit, _solved(*task)
+            for done, (limit, task) in enumerate(tasks.items(), before):
+                ends = _share(done, count), _share(done + 1, count)
+                yield limit, _solved(*task, progress=between(self.progress, *ends))
             return
         futures = {self.executor.submit(_solved, *task): limit for limit, task in tasks.items()}
         try:
@@ -261,6 +263,11 @@ class _Front:
         return described(self.space, {**values, "C_s": C_s})
 
 
+def _share(done: int, count: int) -> float:
+    """Return the share of the work that is done with so many points: finding the ends is part of it."""
+    return 0.35 + 0.65 * done / count
+
+
 def _halving(count: int) -> Iterator[Sequence[tuple[int, ...]]]:
     """Yield places 0 ... count - 1 in turns, each with the places on both sides of it that came in earlier turns.
 
@@ -279,20 +286,16 @@ def _halving(count: int) -> Iterator[Sequence[tuple[int, ...]]]:
         ends = sorted([*ends, *(place for place, _, _ in turn)])
 
 
-def _solved(problem: Problem, known: Known, near: Sequence[Values], seed: int) -> Solved:
+def _solved(problem: Problem, known: Known, near: Sequence[Values], seed: int, progress: Progress = unseen) -> Solved:
     """Return the best design of a problem, whose search begins with known conditions and known designs."""
     given = tuple({name: values[name] for name in problem.design.variables} for values in near)
     beginning = Space(problem, known=known, anchors_given=given, near=NEAR)
-    space, x = best_design(beginning, seed, {}, _silent, turns=NEAR_TURNS)
+    space, x = best_design(beginning, seed, {}, progress, turns=NEAR_TURNS)
     return _kept(space, x)
 
 
 def _kept(space: Space, x: Float) -> Solved:
     return (space.conditions, *(one.conditions for one in space.demanded)), _numbers(space, x)
-
-
-def _silent(text: str, part: float) -> None:
-    """Show no progress: that of one point is not that of the front."""
 
 
 def _limited(problem: Problem, limit: float) -> Problem:

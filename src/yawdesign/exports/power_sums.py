@@ -4,44 +4,42 @@ A vehicle of such numbers has coefficients that say exactly how they depend on t
 """
 
 from collections.abc import Mapping
-from decimal import Decimal
 from typing import Any, Self
 
-Powers = tuple[int, int, int]
+Powers = tuple[int, ...]
 
 BASE = 64  # of the digits that the powers are in the number of a product: between -31 and 31
 
 
 class PowerSum:
-    """A sum of constants, each times a product of powers of three variables.
+    """A sum of constants, each times a product of powers of variables.
 
     Parameters
     ----------
-    constants : mapping int -> Decimal
-        The constant before every product; the powers of the variables, which may be negative, are the digits of the
-        product's number, so that the number of a product of two products is the sum of theirs.
+    constants : mapping int -> number
+        Floats or decimals, one for every product. The powers of the variables, which may be negative, are the digits of
+        the product's number; so the number of a product of two products is the sum of theirs.
 
     Examples
     --------
-    >>> x, y, z = PowerSum.letters()
-    >>> ((x + 2) * x / z - x).terms == {(2, 0, -1): 1, (1, 0, -1): 2, (1, 0, 0): -1}
-    True
+    >>> x, y = PowerSum.letters(2)
+    >>> ((x + 2) * x / y - x).terms(2)
+    {(2, -1): 1.0, (1, -1): 2.0, (1, 0): -1.0}
     """
 
     __slots__ = ("constants",)
 
-    def __init__(self, constants: Mapping[int, Decimal]) -> None:
+    def __init__(self, constants: Mapping[int, Any]) -> None:
         self.constants = constants
 
     @classmethod
-    def letters(cls) -> tuple[Self, Self, Self]:
-        """Return the three variables."""
-        return cls({1: Decimal(1)}), cls({BASE: Decimal(1)}), cls({BASE * BASE: Decimal(1)})
+    def letters(cls, count: int, one: Any = 1.0) -> tuple[Self, ...]:
+        """Return some variables, given the number one of the type of the constants."""
+        return tuple(cls({BASE**k: one}) for k in range(count))
 
-    @property
-    def terms(self) -> dict[Powers, Decimal]:
-        """The constants by the powers of the variables."""
-        return {_powers(number): x for number, x in self.constants.items()}
+    def terms(self, count: int) -> dict[Powers, Any]:
+        """Return the constants by the powers of as many variables."""
+        return {_powers(number, count): x for number, x in self.constants.items()}
 
     def __add__(self, other: Any) -> "PowerSum":
         out = dict(self.constants)
@@ -63,7 +61,7 @@ class PowerSum:
     def __mul__(self, other: Any) -> "PowerSum":
         if not isinstance(other, PowerSum):
             return PowerSum({number: x * other for number, x in self.constants.items()})
-        out: dict[int, Decimal] = {}
+        out: dict[int, Any] = {}
         get, others = out.get, tuple(other.constants.items())
         for one, x in self.constants.items():
             for two, y in others:
@@ -76,19 +74,19 @@ class PowerSum:
     def __truediv__(self, other: Any) -> "PowerSum":
         """Return the quotient by a number or by a single product."""
         ((number, x),) = _constants(other).items()
-        return self * PowerSum({-number: 1 / x})
+        return PowerSum({own - number: y / x for own, y in self.constants.items()})
 
     def __rtruediv__(self, other: Any) -> "PowerSum":
         return PowerSum(_constants(other)) / self
 
 
-def _constants(x: Any) -> Mapping[int, Decimal]:
-    return x.constants if isinstance(x, PowerSum) else {0: Decimal(x)}
+def _constants(x: Any) -> Mapping[int, Any]:
+    return x.constants if isinstance(x, PowerSum) else {0: x}
 
 
-def _powers(number: int) -> Powers:
-    half = BASE // 2
-    first = (number + half) % BASE - half
-    number = (number - first) // BASE
-    second = (number + half) % BASE - half
-    return first, second, (number - second) // BASE
+def _powers(number: int, count: int) -> Powers:
+    half, found = BASE // 2, []
+    for _ in range(count):
+        found.append((number + half) % BASE - half)
+        number = (number - found[-1]) // BASE
+    return tuple(found)

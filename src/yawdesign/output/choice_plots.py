@@ -41,9 +41,11 @@ def draw_choice(result: "Choice", ax: "Axes | None" = None) -> "Axes":
         some = [each for each in result.candidates if each.status == status]
         points = [each.C_s * DAMPING for each in some], [scale * each.margin for each in some]
         if some:
-            look: dict[str, Any] = {} if marker == "x" else {"markerfacecolor": colour if status == "ok" else HALO}
-            label = f"{status} ({len(some)})"
-            ax.plot(*points, linestyle="none", marker=marker, color=colour, label=label, zorder=3, **look)
+            faces = colour if status == "ok" or marker == "x" else HALO
+            look: dict[str, Any] = {"marker": marker, "s": 38, "c": faces, "zorder": 3}
+            if marker != "x":
+                look["edgecolors"] = colour
+            ax.scatter(*points, label=f"{status} ({len(some)})", **look)
     ax.margins(0.08, 0.1)  # room for names
     ax.set_xlabel(r"damping of the pair of yaw dampers $C_\mathrm{s}$ [kN·s/m]")
     ax.set_ylabel(f"least {result.objective.replace('_', ' ')},\nworst condition [{unit}]")

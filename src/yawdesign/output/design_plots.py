@@ -2,17 +2,18 @@
 
 from collections.abc import Sequence
 from itertools import pairwise
-from math import inf
+from math import inf, log
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from yawdesign.output.condition_texts import condition_text
-from yawdesign.output.mark_labels import MarkLabel, draw_labels, write_ends
+from yawdesign.output.mark_labels import MarkLabel, draw_labels, write_inside
 from yawdesign.output.pictures import MARGIN, legend_below, literal, log_axis, new_axes, set_title
 from yawdesign.output.style import BECOMES, CHOSEN, CHOSEN_LINE, EXCLUDED, LIMIT, LIMIT_LINE, STABLE, UNSTABLE, area
 from yawdesign.output.tables import critical_shown
 from yawdesign.problem import format_quantity, to_unit
+from yawdesign.problem.quantities import format_number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -25,7 +26,7 @@ DAMPING = to_unit(1.0, "kN·s/m")
 ASIDE = 3.0  # how far the axis goes beyond the marks, as a ratio
 BAR = 0.7  # height of the bars, of a row
 HEIGHT, ROW = 2.4, 0.24  # of a picture with one bar, of each one more [inch]
-LOWEST_ROW = 13.0  # [pt], in which a condition can still be read
+LOWEST_ROW, AROUND = 13.0, 75.0  # [pt], in which a condition can still be read; of title, labels and legend
 SIGNS_OF_ROW, LETTER = 38, 5.0  # of a condition's name, and their width [pt]
 
 
@@ -45,14 +46,14 @@ def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
     if given is None:
         figure.set_size_inches(figure.get_figwidth(), HEIGHT + ROW * len(rows))
     else:
-        rows = rows[: max(0, int(_points(ax) / LOWEST_ROW) - 1)]
+        rows = _nearest(result, rows, int((_points(ax) - AROUND) / LOWEST_ROW) - 1)
     low, high = _ends(result)
     ax.set(xlim=(low, high), xlabel=r"damping of the pair of yaw dampers $C_\mathrm{s}$ [kN·s/m]")
     log_axis(ax)
     every = "every condition" if len(_conditions(result)) > 1 else ""
     bars = [(every or "this vehicle", result.stable_intervals), *rows]
     for k, (_, intervals) in enumerate(bars):
-        _bar(ax, k, intervals, result.C_su, under=every)
+        _bar(ax, k, intervals, result.C_su)
     names = [name for name, _ in bars] if rows else []
     ax.set_yticks(range(len(names)), [literal(name) for name in names], fontsize="small")
     ax.tick_params(axis="y", length=0)
@@ -70,7 +71,8 @@ def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
         for start, stop in intervals:
             if start > 0 and not (k == 0 and start == result.C_sl):
                 at = [mark.x for mark in marks]
-                write_ends(ax, k, start * DAMPING, min(stop * DAMPING, high), f"{start * DAMPING:.4g}", at)
+                text = " ... ".join(format_number(end * DAMPING, 4) for end in (start, stop) if end < inf)
+                write_inside(ax, k, start * DAMPING, min(stop * DAMPING, high), text, at)
     return ax
 
 
@@ -108,6 +110,17 @@ def _rows(result: "ForwardDesign") -> list[tuple[str, Intervals]]:
     return rows
 
 
+def _nearest(result: "ForwardDesign", rows: list[tuple[str, Intervals]], count: int) -> list[tuple[str, Intervals]]:
+    """Return so many rows: those with an end that is nearest to where the design becomes stable."""
+    place = result.C_sl or 1.0
+
+    def distance(k: int) -> float:
+        ends = [end for interval in rows[k][1] for end in interval if 0 < end < inf]
+        return min((abs(log(end / place)) for end in ends), default=inf)
+
+    return [rows[k] for k in sorted(sorted(range(len(rows)), key=distance)[: max(0, count)])]
+
+
 def _short(name: str) -> str:
     return name if len(name) <= SIGNS_OF_ROW else f"{name[: SIGNS_OF_ROW - 3]}..."
 
@@ -119,17 +132,20 @@ def _intervals(critical: Sequence["Critical"]) -> Intervals:
     return [pair for pair, kind in zip(pairwise(ends), kinds, strict=True) if kind == "stable"]
 
 
-def _bar(ax: "Axes", row: int, intervals: Intervals, limit: float | None, under: str) -> None:
+def _bar(ax: "Axes", row: int, intervals: Intervals, limit: float | None) -> None:
     """Draw what is unstable, stable, and stable beyond what the curve allows."""
     low, high = ax.get_xlim()
     end = high if limit is None else float(np.clip(limit * DAMPING, low, high))
-    every, some = (f" under {under}", " under some condition") if under else ("", "")
-    parts = {f"unstable{some}": (UNSTABLE, [(low, high)]), f"stable{every}": (STABLE, list[tuple[float, float]]())}
-    parts["stable, beyond the curve's limit"] = (EXCLUDED, [])
+    beyond, stable = list[tuple[float, float]](), list[tuple[float, float]]()
     for start, stop in intervals:
         a, b = max(start * DAMPING, low), min(stop * DAMPING, high)
-        parts[f"stable{every}"][1].append((a, min(b, end)))
-        parts["stable, beyond the curve's limit"][1].append((max(a, end), b))
+        stable.append((a, min(b, end)))
+        beyond.append((max(a, end), b))
+    parts = {
+        "unstable": (UNSTABLE, [(low, high)]),
+        "stable": (STABLE, stable),
+        "stable, beyond the curve's limit": (EXCLUDED, beyond),
+    }
     for text, (colour, found) in parts.items():
         label = text if row == 0 else "_"
         for a, b in found:

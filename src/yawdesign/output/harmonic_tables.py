@@ -8,7 +8,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 
 from yawdesign.hunting.chosen_condition import condition_in_words
-from yawdesign.output.response_plots import SHOWN, meaning
+from yawdesign.output.response_words import SHOWN, meaning
 from yawdesign.output.tables import damping, facts, speed, titled, verified
 from yawdesign.problem import format_quantity
 

@@ -66,8 +66,8 @@ def draw_labels(ax: "Axes", labels: Sequence[MarkLabel], first: float) -> float:
     return first + STEP * len(ends) if ends else 0.0
 
 
-def write_ends(ax: "Axes", row: float, start: float, stop: float, text: str, marks: Sequence[float]) -> None:
-    """Write the value of the lower end of a bar inside it, where there is room between the marks.
+def write_inside(ax: "Axes", row: float, start: float, stop: float, text: str, marks: Sequence[float]) -> None:
+    """Write a text at the lower end of a bar inside it, where there is room between the marks.
 
     Parameters
     ----------

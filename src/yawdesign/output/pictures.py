@@ -3,6 +3,7 @@
 import io
 import re
 import textwrap
+import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from importlib import import_module
@@ -37,7 +38,8 @@ def own_texts() -> Iterator[None]:
     """Let Matplotlib set the texts that are made meanwhile, and draw in the style of this package."""
     import matplotlib
 
-    with matplotlib.rc_context(TEXTS):  # type: ignore[arg-type]
+    with matplotlib.rc_context(TEXTS), warnings.catch_warnings():  # type: ignore[arg-type]
+        warnings.filterwarnings("ignore", "Glyph .* missing from font")  # a box stands there
         yield
 
 
@@ -134,10 +136,10 @@ def _seen(text: str) -> str:
 
 
 def _room(ax: "Axes") -> float:
-    """Return the width that belongs to some axes and what stands beside them [pt]."""
+    """Return the width that belongs to some axes, or those they are a part of, and what stands beside them [pt]."""
     figure: Any = ax.get_figure(root=True)
     place = ax.get_subplotspec()
-    width = ax.get_position().width if place is None else place.get_position(figure).width
+    width = ax.get_position().width if place is None else place.get_topmost_subplotspec().get_position(figure).width
     pars = figure.subplotpars
     return float(72.0 * figure.get_figwidth() * min(1.0, width / (pars.right - pars.left)))
 

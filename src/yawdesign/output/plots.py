@@ -18,11 +18,13 @@ DRAWN_BY: dict[str, tuple[str, str]] = {
     "Optimum": ("yawdesign.output.optimum_plots", "draw_optimum"),
     "Choice": ("yawdesign.output.choice_plots", "draw_choice"),
     "TradeOff": ("yawdesign.output.trade_off_plots", "draw_trade_off"),
-    "DamperComponent": ("yawdesign.output.response_plots", "damper_component"),
+    "DamperComponent": ("yawdesign.output.damper_plots", "damper_component"),
     "FrequencyResponse": ("yawdesign.output.response_plots", "frequency_response"),
-    "Simulation": ("yawdesign.output.response_plots", "simulation"),
+    "Simulation": ("yawdesign.output.simulation_plots", "simulation"),
     "SpectrumCheck": ("yawdesign.output.response_plots", "spectrum_check"),
     "FollowedModes": ("yawdesign.output.mode_plots", "mode_paths"),
+    "Stability": ("yawdesign.output.stability_plots", "draw_stability"),
+    "StationaryResponse": ("yawdesign.output.stationary_plots", "draw_stationary"),
     "Modes": ("yawdesign.output.mode_shape_plots", "mode_shape"),
 }
 
@@ -30,7 +32,7 @@ DRAWN_BY: dict[str, tuple[str, str]] = {
 def plot(result: Any, ax: "Axes | None" = None, **options: Any) -> "Axes":
     """Draw any result of this package.
 
-    Texts are set by Matplotlib itself, not by LaTeX.
+    Texts are set by Matplotlib itself, not by LaTeX. A picture of several panels divides the axes it is given.
 
     Parameters
     ----------

@@ -25,9 +25,11 @@ def write_answer(text: str) -> None:
 
 
 def tell(text: str) -> None:
-    """Write a message to standard error; where nobody can read it, nothing else can be done."""
+    """Write a message to standard error, letter by letter; where nobody can read it, nothing else can be done."""
+    from yawdesign.problem.characters import in_order
+
     try:
-        sys.stderr.write(text + "\n")
+        sys.stderr.write(in_order(text) + "\n")
         sys.stderr.flush()
     except OSError:
         discard(sys.stderr)

@@ -77,6 +77,7 @@ def draw(sweep: Sweep, ax: "Axes | None" = None) -> "Axes":
     {"critical": _branches, "critical_speed": _branches, "C_sl": _least, "design": _design}.get(
         sweep.quantity, _margin
     )(sweep, ax, x)
+    _mark(ax, x, ~sweep.known, UNKNOWN, "not verified")
     handles = ax.get_legend_handles_labels()[0]
     upright = UPRIGHT.get(sweep.quantity)
     if sweep.quantity in ("critical", "C_sl"):
@@ -104,7 +105,6 @@ def _branches(sweep: Sweep, ax: "Axes", x: Float) -> None:
     places, columns = _refined(sweep, x, factor)
     _shade(ax, places, columns, low, high)
     draw_lines(ax, curves(places, columns, low, high))
-    _mark(ax, x, ~sweep.known, UNKNOWN, "not verified")
 
 
 def _shade(ax: "Axes", x: Float, columns: list[CriticalColumn], low: float, high: float) -> None:
@@ -162,8 +162,7 @@ def _least(sweep: Sweep, ax: "Axes", x: Float) -> None:
         look = {**area(UNSTABLE), "zorder": 0}
         ax.fill_between(x, 0, y, label="unstable under some condition", **look)
         ax.fill_between(x, y, top, label="stable above the curve", zorder=0, **area(STABLE))
-        _mark(ax, x, ~np.isfinite(y) & sweep.known, UNSTABLE, "stable for none")
-        _mark(ax, x, ~sweep.known, UNKNOWN, "not verified")
+    _mark(ax, x, ~np.isfinite(y) & sweep.known, UNSTABLE, "stable for none")
     ax.plot(x, shown, label=r"$C_\mathrm{sl}$ of the interval chosen", **CHOSEN_LINE)
 
 
@@ -218,18 +217,13 @@ def _design(sweep: Sweep, ax: "Axes", x: Float) -> None:
     kinds = chart.kinds_of("design", sweep.columns, sweep.known)
     _mark(ax, x, kinds == chart.NONE, EXCLUDED, "no design")
     _mark(ax, x, kinds == chart.NEVER, UNSTABLE, r"stable for no $C_\mathrm{s}$")
-    _mark(ax, x, kinds == chart.UNKNOWN, UNKNOWN, "not verified")
 
 
 def _margin(sweep: Sweep, ax: "Axes", x: Float) -> None:
     """Draw a margin, or only the verdict, and shade where it is stable."""
-    looks = {
-        chart.STABLE: (STABLE, "stable"),
-        chart.UNSTABLE: (UNSTABLE, "unstable"),
-        chart.UNKNOWN: (UNKNOWN, "not verified"),
-    }
+    looks = {chart.STABLE: (STABLE, "stable"), chart.UNSTABLE: (UNSTABLE, "unstable")}
     told = set()
-    for start, stop, kind in _stretches(sweep, x):
+    for start, stop, kind in (each for each in _stretches(sweep, x) if each[2] in looks):
         colour, text = looks[kind]
         span(ax, start, stop, colour, label="_" if kind in told else text)
         told.add(kind)

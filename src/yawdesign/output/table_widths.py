@@ -22,7 +22,8 @@ KEPT = "\ufffe"  # stands for a blank at which no line ends; no text of a user h
 TRIED = ((None, 16), (0, 16), (0, 10))
 # Blanks inside of a number, and between a number and its unit.
 _INSIDE = re.compile(
-    r"(?<= x) (?=\d)|(?<=±) (?=\d)|(?<=\d) (?=±)|(?<=\d) (?=\d{3}(?!\d)|[kMGmµ]?(?:N|m|rad|g|t|s|Hz|W)(?![A-Za-z])|km/h|1/s|%|°)"
+    r"(?<= x) (?=\d)|(?<=±) (?=\d)|(?<=\d) (?=±)"
+    r"|(?<=\d) (?=\d{3}(?!\d)|[kMGmµ]?(?:N|m|rad|g|t|s|Hz|W)(?![A-Za-z])|km/h|1/s|%|°)"
 )
 
 

@@ -57,7 +57,7 @@ def in_order(text: str) -> str:
     >>> in_order("a\u202eb") == "a\ufffdb"
     True
     """
-    return "".join("\ufffd" if char in _TURNS or (char != "\n" and is_refused(char)) else char for char in text)
+    return "".join("\ufffd" if char in _TURNS or (char not in "\n\t" and is_refused(char)) else char for char in text)
 
 
 def printable(text: str) -> str:

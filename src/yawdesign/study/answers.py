@@ -2,7 +2,8 @@
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
 from typing import Any
@@ -26,6 +27,7 @@ from yawdesign.problem.running import CURVE
 from yawdesign.study.request import Question
 
 LENGTH = 16384  # points that one thread looks at
+SHARED = 256  # points that are worth a thread of their own
 VERDICTS = 32768  # the same for verdicts, which need less memory a point
 
 
@@ -49,7 +51,9 @@ class Answers:
     unverified: Bools
 
 
-def evaluate(question: Question, p: Mapping[str, Any], *, threads: int | None = None) -> Answers:
+def evaluate(
+    question: Question, p: Mapping[str, Any], *, threads: int | None = None, pool: Executor | None = None
+) -> Answers:
     """Return the answers to a question at many points.
 
     Parameters
@@ -61,17 +65,21 @@ def evaluate(question: Question, p: Mapping[str, Any], *, threads: int | None = 
         numbers, or arrays of one common length.
     threads : int, optional
         How many threads share the points; one for every core if not given.
+    pool : Executor, optional
+        The threads, where there are some: they remember what they have prepared, so that few points are shared too.
 
     Returns
     -------
     Answers
     """
-    parts = list(ParameterSets.split(question.model, p, VERDICTS if question.of == "stable" else LENGTH))
-    workers = min(threads or os.cpu_count() or 1, len(parts))
-    if workers == 1:
+    workers, most = threads or os.cpu_count() or 1, VERDICTS if question.of == "stable" else LENGTH
+    if pool is not None:
+        most = min(most, max(SHARED, -(-max(map(np.size, p.values())) // workers)))
+    parts = list(ParameterSets.split(question.model, p, most))
+    if min(workers, len(parts)) == 1:
         return _joined([_answer(question, part) for part in parts])
-    with ThreadPoolExecutor(workers) as pool:
-        return _joined(list(pool.map(lambda part: _answer(question, part), parts)))
+    with nullcontext(pool) if pool else ThreadPoolExecutor(min(workers, len(parts))) as own:
+        return _joined(list(own.map(lambda part: _answer(question, part), parts)))
 
 
 def _answer(question: Question, sets: ParameterSets) -> Answers:

@@ -34,16 +34,17 @@ class Chart:
     Parameters
     ----------
     kinds : ndarray of int
-        What kind of answer each point has: stable, a value, none, ...
+        What kind of answer each point has [-]: stable, a value, none, ...
     crossings : tuple of ndarray
         For each axis: at which of its values the kind changes between a point and the next one [SI]; NaN where it
         does not.
     C_su : ndarray or None
         What the curve allows over the axis beside C_s, under all conditions [N s/m].
     as_written : mapping name -> tuple of float
-        What the problem itself has of the axes, of C_s and of the speed [SI].
+        What the problem itself has of the axes, of C_s and of the speed, in SI units.
     between : mapping name -> ndarray, or None
-        Over one axis: all critical values at further places, where their number changes; ``axis`` has the places.
+        Over one axis: all critical values at further places, where their number changes, in SI units; ``axis`` has
+        the places.
     """
 
     kinds: Kinds

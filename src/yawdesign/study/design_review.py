@@ -23,6 +23,7 @@ from yawdesign.hunting.verdict import Stability
 from yawdesign.problem import Problem
 from yawdesign.problem.arguments import Progress
 from yawdesign.problem.conditions import condition_set
+from yawdesign.problem.quantities import Written
 from yawdesign.response.modes.followed_modes import FollowedModes, follow_modes
 from yawdesign.response.modes.named_modes import Modes, modes
 from yawdesign.response.run.simulate import Simulation, simulate
@@ -240,7 +241,7 @@ def each_condition(problem: Problem) -> tuple[ConditionMargins, ...]:
 
 def _paths(problem: Problem, worst: Mapping[str, Any]) -> FollowedModes:
     condition = {name: value for name, value in worst.items() if name != "speed"}
-    at = problem.replace(speed=worst["speed"])
+    at = problem.replace(speed=Written(worst["speed"]))
     return follow_modes(at, condition=condition or AS_WRITTEN, v=review_axes.speeds(problem, FOLLOWED))
 
 

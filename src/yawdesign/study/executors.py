@@ -1,12 +1,22 @@
 """Many points in chunks, in this process or by an executor; what is finished stays when something breaks."""
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    wait,
+)
 from contextlib import contextmanager
 from itertools import islice
+from math import inf
 from multiprocessing import get_context
 from signal import SIG_IGN, SIGINT, signal
+from time import perf_counter
 from typing import Any
 
 from yawdesign.problem import ProblemError
@@ -17,7 +27,9 @@ from yawdesign.study.axes import applied, block
 from yawdesign.study.request import Request, Task
 from yawdesign.study.store import Store
 
-HERE = VERDICTS * (os.cpu_count() or 1)  # points of a chunk in this process, whose threads share them
+HERE = VERDICTS * (os.cpu_count() or 1)  # most points of a chunk in this process, whose threads share them
+FIRST = 64  # points of the first two chunks in this process
+GROWTH = ((0.5, 16), (1.0, 4), (3.0, 1), (inf, 0.5))  # of a chunk after one that took less than so many seconds
 LARGEST, SMALLEST = LENGTH, 64  # points of a chunk for an executor
 PARTS = 64  # into which a grid is cut for an executor, so that all workers end at about the same time
 IN_FLIGHT = 256  # chunks that are handed over at a time
@@ -26,9 +38,10 @@ CONNECT = 20  # seconds to wait for a dask scheduler
 Blocks = Iterable[tuple[int, int]]
 
 
-def answer(task: Task, point: Mapping[str, Any], threads: int | None = 1) -> Answers:
+def answer(task: Task, point: Mapping[str, Any], pool: Executor | None = None) -> Answers:
     """Return the answers at some points; this is what a worker runs, in one thread: there are other workers."""
-    return evaluate(task.question, applied(task.parameters, point, task.hold), threads=threads)
+    parameters = applied(task.parameters, point, task.hold)
+    return evaluate(task.question, parameters, threads=None if pool else 1, pool=pool)
 
 
 def fill(
@@ -57,24 +70,46 @@ def fill(
     with held():
         try:
             if executor is None:
-                return _fill_here(store, asked, store.missing(chunk or HERE), done)
+                with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+                    return _fill_here(store, asked, pool, chunk, done)
             chunk = chunk or min(max(asked.size // PARTS, SMALLEST), LARGEST)
             return _Handover(store, asked, as_executor(executor), done).run(store.missing(chunk))
         except (KeyboardInterrupt, Exception) as error:  # noqa: BLE001 - also of `done`; what is finished is in the store
             return error
 
 
-def _fill_here(store: Store, asked: Request, blocks: Blocks, done: Callable[[], None]) -> BaseException | None:
+def _fill_here(
+    store: Store, asked: Request, pool: Executor, chunk: int | None, done: Callable[[], None]
+) -> BaseException | None:
     failed: BaseException | None = None
-    for start, stop in list(blocks):
-        try:
-            with let_through():
-                answers = answer(asked.task, block(asked.axes, start, stop), None)
-            store.put(start, answers)
-        except Exception as error:  # noqa: BLE001 - the other chunks are computed, and this one is reported
-            failed = failed or error
-        done()
+    sizes = _sizes()
+    size = next(sizes)
+    for first, last in list(store.missing(store.size)):
+        start = first
+        while start < last:
+            stop, begin = min(start + (chunk or size), last), perf_counter()
+            try:
+                with let_through():
+                    answers = answer(asked.task, block(asked.axes, start, stop), pool)
+                store.put(start, answers)
+            except Exception as error:  # noqa: BLE001 - the other chunks are computed, and this one is reported
+                failed = failed or error
+            done()
+            start = stop
+            size = sizes.send(perf_counter() - begin)
     return failed
+
+
+def _sizes() -> Generator[int, float, None]:
+    """Yield how many points come next, told how many seconds the last ones took: so that they are seen coming in.
+
+    The first chunk takes the preparation with it, and tells nothing.
+    """
+    size = min(FIRST, HERE)
+    yield size
+    while True:
+        seconds = yield size
+        size = min(max(int(size * next(factor for most, factor in GROWTH if seconds < most)), 1), HERE)
 
 
 class _Handover:

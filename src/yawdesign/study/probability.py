@@ -55,19 +55,21 @@ def probability_unstable(workers: Workers, vehicle: UncertainVehicle, samples: i
     seed : int
         Of the samples.
     """
-    plain = _counted(workers, "samples", vehicle, draws(vehicle, samples, seed))
+    plain = _counted(workers.within(0.0, 0.5), "samples", vehicle, draws(vehicle, samples, seed))
     failures = sum(x.unstable for x in plain)
     if LEAST_FAILURES <= failures <= samples - LEAST_FAILURES:
         text = f"{REPLICATES} replicates of {samples // REPLICATES} scrambled Sobol points, interval by Student's t"
         return _estimated(plain, "estimated", f"{text} from the scatter of the replicates")
     if failures < LEAST_FAILURES and vehicle.uncertain.can_be_widened:
-        wide = _counted(workers, "rare failures", vehicle, draws(vehicle, samples, seed, kind=1), WIDENED)
+        wide = _counted(
+            workers.within(0.5, 0.75), "rare failures", vehicle, draws(vehicle, samples, seed, kind=1), WIDENED
+        )
         weight, squared = sum(x.weight for x in wide), sum(x.squared for x in wide)
         found = _estimated(wide, "rare", _of_widened(samples))
         if squared and weight**2 / squared >= LEAST_FAILURES and found.interval[0] > 0:
             return found
     independent = draws(vehicle, samples, seed, kind=2, independent=True)
-    return _bounded(_counted(workers, "independent samples", vehicle, independent), failures)
+    return _bounded(_counted(workers.within(0.75, 1.0), "independent samples", vehicle, independent), failures)
 
 
 def draws(

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from yawdesign.hunting.many import margins
 from yawdesign.hunting.many.measure import Measure
 from yawdesign.hunting.many.parameter_sets import ParameterSets
 from yawdesign.problem.arguments import as_executor
+from yawdesign.problem.progress import between
 from yawdesign.study.answers import evaluate
 from yawdesign.study.request import Question
 from yawdesign.study.samples import Draw, Indices, Uncertain, sobol_indices
@@ -103,11 +104,15 @@ class Workers:
     executor : Executor
         Who computes.
     done : callable
-        Called with a text and the share that is done of it.
+        Called with a text and the share that is done of all.
     """
 
     def __init__(self, executor: Executor, done: Callable[[str, float], Any]) -> None:
         self.executor, self.done = executor, done
+
+    def within(self, low: float, high: float) -> Self:
+        """Return the same workers, whose work is that between two shares of the whole."""
+        return type(self)(self.executor, between(self.done, low, high))
 
     def all(self, text: str, function: Callable[..., Any], jobs: Sequence[tuple[Any, ...]]) -> list[Any]:
         """Return what a function returns for each job, in their order."""

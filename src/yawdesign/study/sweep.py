@@ -11,6 +11,7 @@ from typing import Any
 
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress, as_executor
+from yawdesign.problem.progress import between
 from yawdesign.problem.running import CURVE
 from yawdesign.problem.stopping import held, request_to_stop
 from yawdesign.study.axes import Axis
@@ -25,6 +26,7 @@ Pairs = Iterable[tuple[str, Any]]
 
 SAVE_EVERY = 30.0  # [s] with a file to resume from
 MOST_DRAWN = 5_000  # points of a boundary; no picture shows more
+LINES_FROM = 0.9  # share of the work after which a boundary is computed
 
 
 class IncompleteSweepError(RuntimeError):
@@ -141,8 +143,10 @@ def answered(
     kept = None if resume is None else _Kept(Path(resume), asked)
     store = kept.store if kept else Store(asked.size)
 
+    of_points = between(progress, 0.0, LINES_FROM if _has_boundary(asked) else 1.0)
+
     def done() -> None:
-        progress(f"{store.finished.sum()} of {asked.size} points", float(store.finished.mean()))
+        of_points(f"{store.finished.sum()} of {asked.size} points", float(store.finished.mean()))
         if kept:
             kept.save_at_times()
 
@@ -154,7 +158,7 @@ def answered(
             if kept:
                 kept.save()
         if failed is None:
-            failed, boundary = _boundary(asked, executor)
+            failed, boundary = _boundary(asked, executor, between(progress, LINES_FROM, 1.0))
         failed = request_to_stop() or failed
         result = gathered(asked, store, time.perf_counter() - begin, boundary)
         if failed is None:
@@ -219,19 +223,25 @@ def _remedy(store: Store, kept: _Kept | None) -> str:
     return f"Nothing finished is lost: .result has it, .result.keep({name!r}) writes it, resume={name!r} goes on"
 
 
-def _boundary(asked: Request, executor: Any) -> tuple[BaseException | None, Sweep | None]:
+def _has_boundary(asked: Request) -> bool:
+    """Return whether a picture of the sweep needs all critical values over one axis."""
+    axes = _axes_of_boundary(asked)
+    if len(axes) != 1 or axes[0].values.size > MOST_DRAWN or axes[0].name in CURVE:
+        return False
+    return len(asked.about("critical", axes).task.question.conditions) == 1  # of several each has its own
+
+
+def _boundary(asked: Request, executor: Any, progress: Progress) -> tuple[BaseException | None, Sweep | None]:
     """Return all critical values, where a picture of the sweep needs them, and who stopped their computation.
 
     Whatever goes wrong here, the sweep itself is finished.
     """
-    axes = _axes_of_boundary(asked)
-    if len(axes) != 1 or axes[0].values.size > MOST_DRAWN:
+    if not _has_boundary(asked):
         return None, None
-    lines = asked.about("critical", axes)
-    if axes[0].name in CURVE or len(lines.task.question.conditions) > 1:
-        return None, None  # each condition has its own
+    progress("critical lines for a picture", 0.0)
     try:
-        return None, answered(lines, executor=executor)
+        lines = asked.about("critical", _axes_of_boundary(asked))
+        return None, answered(lines, executor=executor, progress=lambda _, part: progress("critical lines", part))
     except Exception as error:  # noqa: BLE001 - no fault may cost the points that are finished
         if isinstance(error, IncompleteSweepError) and error.interrupted:
             return error.__cause__, None

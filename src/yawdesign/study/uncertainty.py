@@ -159,7 +159,7 @@ def uncertainty(
     executor : concurrent.futures.Executor or distributed.Client, optional
         Who computes; by default the threads of this process.
     progress : callable, optional
-        Called with a text and the share that is done of it, 0 ... 1.
+        Called with a text and the share that is done, 0 ... 1.
 
     Returns
     -------
@@ -224,13 +224,17 @@ def _found(workers: Workers, problem: Problem, vehicle: UncertainVehicle, sample
     slower = max(1.0, conditions * EARLY) * (SLOWER if problem.car_body else 1)
     stable = bool(evaluate(vehicle.question, vehicle.uncertain.parameters).columns["stable"][0])
     designed = as_designed(vehicle, objective)
-    probability = probability_unstable(workers, vehicle, samples, seed)
+    probability = probability_unstable(workers.within(0.0, 0.3), vehicle, samples, seed)
     replicates = draws(vehicle, samples, seed)
     some = min(replicates[0].size, max(2**5, _power(PERCENTILES_FROM / REPLICATES / slower)))
     values = {"margin": objective, "C_sl": "C_sl"}
-    columns = {name: _answers(workers, vehicle, of, replicates, some) for name, of in values.items()}
+    parts = (workers.within(0.3, 0.5), workers.within(0.5, 0.7))
+    answers = (_answers(part, vehicle, of, replicates, some) for part, of in zip(parts, values.values(), strict=True))
+    columns = dict(zip(values, answers, strict=True))
     compared = min(replicates[0].size, COMPARED // (SLOWER if problem.car_body else 1))
-    differences = sum(workers.all("eigenvalues", vehicle.differing, [(draw, compared) for draw in replicates]))
+    differences = sum(
+        workers.within(0.7, 0.9).all("eigenvalues", vehicle.differing, [(draw, compared) for draw in replicates])
+    )
     base, d = min(replicates[0].size, max(2**4, _power(BASE / slower))), len(problem.uncertainty)
     return Uncertainty(
         probability_unstable=probability.value,
@@ -239,7 +243,7 @@ def _found(workers: Workers, problem: Problem, vehicle: UncertainVehicle, sample
         percentiles={
             name: dict(zip(map(str, LEVELS), percentiles(x, LEVELS), strict=True)) for name, x in columns.items()
         },
-        sobol=_sobol(workers, vehicle, objective, base, seed),
+        sobol=_sobol(workers.within(0.9, 1.0), vehicle, objective, base, seed),
         stable=stable,
         objective=objective,
         margin=designed.margin,

@@ -120,7 +120,8 @@ def test_a_wrong_step_is_noticed(monkeypatch):
 def test_progress_is_told():
     told = []
     yd.simulate(PROBLEM, speed=[60, 70], duration=1, progress=lambda text, part: told.append((text, part)))
-    assert told == [("running at 216 km/h", 0.0), ("running at 252 km/h", 0.5)]
+    assert told[0] == ("running at 216 km/h", 0.0)
+    assert [call for call in told if call[1] == 0.5] == [("running at 252 km/h", 0.5)]
 
 
 def test_all_mistakes_at_once():

@@ -26,19 +26,24 @@ class Section:
     title : str
         Its heading.
     body : str
-        HTML.
+        HTML: what stands below the heading, or the whole section.
     on_paper : bool
         Whether it is printed.
+    whole : bool
+        Whether the body has its own heading and is the section.
     """
 
     name: str
     title: str
     body: str
     on_paper: bool = True
+    whole: bool = False
 
     @property
     def html(self) -> str:
         """The section as an element."""
+        if self.whole:
+            return self.body
         opening = f'<section id="{self.name}" aria-labelledby="{self.name}-heading"{self.kind}>'
         return f'{opening}\n<h2 id="{self.name}-heading">{self.title}</h2>\n{self.body}\n</section>'
 
@@ -96,4 +101,5 @@ def figure(axes: "Axes", name: str, title: str, description: str, caption: str =
     """
     svg = markup.picture(axes, name, title, description)
     width, height = axes.get_figure(root=True).get_size_inches()  # type: ignore[union-attr]
-    return f"<figure{of_class('tall' if height > TALL * width else '')}>{svg}<figcaption>{markup.text(caption or description)}</figcaption></figure>"
+    kind = of_class("tall" if height > TALL * width else "")
+    return f"<figure{kind}>{svg}<figcaption>{markup.text(caption or description)}</figcaption></figure>"

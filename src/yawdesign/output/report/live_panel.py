@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from importlib.resources import files
 from typing import NamedTuple
 
-from yawdesign.exports.javascript import page_polynomials
+from yawdesign.exports.javascript import page_equations
 from yawdesign.output.markup import VARIABLES, plain_text, text
 from yawdesign.problem import PARAMETERS, Problem
 from yawdesign.problem.condition import CREEP_FACTOR
 from yawdesign.problem.running import SPEED
 
-SCRIPTS = ("polynomial.js", "live.js")
+SCRIPTS = ("arithmetic.js", "polynomial.js", "eigenvalues.js", "answers.js", "live.js")
 STYLE = "live.css"
 
 
@@ -57,8 +57,8 @@ PAGE = """\
 <div class="values" role="group" aria-label="Values">
 {rows}
 </div>
-<button type="button" id="live-reset">Back to the values of the problem</button>
-<p class="verdict"><output id="live-verdict" aria-live="polite"></output></p>
+<button type="button" id="live-reset">Back to the design</button>
+<p class="answer"><output id="live-verdict" aria-live="polite"></output></p>
 <dl>
 <dt>Decay rate</dt><dd><output id="live-decay-rate"></output></dd>
 <dt>Damping ratio</dt><dd><output id="live-damping-ratio"></output></dd>
@@ -66,14 +66,14 @@ PAGE = """\
 <dt>Stable for C_s</dt><dd><output id="live-intervals"></output></dd>
 </dl>
 <p>Decay rate and damping ratio are the least over the modes that a design variable moves.</p>
-<svg viewBox="0 0 600 64" role="img" aria-labelledby="live-axis-title live-intervals">
+<svg viewBox="0 0 600 78" role="img" aria-labelledby="live-axis-title live-intervals">
 <title id="live-axis-title">Stable intervals of C_s [kN\u00b7s/m], and C_s</title>
 <defs><pattern id="live-hatch" width="7" height="7" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">\
 <path class="hatch" d="M0 0v7"/></pattern></defs><g id="live-axis-drawn"></g></svg>
 <svg viewBox="0 0 600 300" role="img" aria-labelledby="live-plane-title live-plane-description">
 <title id="live-plane-title">Roots of the characteristic polynomial</title>
 <desc id="live-plane-description"></desc><g id="live-plane-drawn"></g></svg>
-<p>Crosses: roots now; triangles: roots that grow; circles: roots at the values of the problem. \
+<p>Crosses: roots now; triangles: roots that grow; circles: roots of the design. \
 <span id="live-plane-note"></span></p>
 <script type="application/json" id="live-data">{data}</script>
 <script>(() => {{
@@ -84,8 +84,10 @@ PAGE = """\
 """
 
 ABOUT = (
-    "Roots, margins and stable intervals are computed in this page from the characteristic polynomial of the vehicle, "
-    "under one condition: the values given here. All other parameters are as written in the problem."
+    "Computed in this page, for one condition: the values given here, while all other parameters stay as designed. The "
+    "verdict and the stable intervals come from the characteristic polynomial of every motion of the vehicle, the "
+    "roots from its state matrix. That each of them is a root of the polynomial, and that both count as many unstable "
+    "ones, is checked every time."
 )
 
 
@@ -112,7 +114,7 @@ def live_panel(problem: Problem, C_s: float) -> str:
         style=_style(),
         about=text(ABOUT),
         rows="\n".join(_rows(start)),
-        data=json.dumps({"start": start, **page_polynomials(problem)}, separators=(",", ":")),
+        data=json.dumps({"start": start, **page_equations(problem)}, separators=(",", ":")),
         script="\n".join(_read(name) for name in SCRIPTS),
     )
 

@@ -1,5 +1,6 @@
 """Sections on how it moves: damping over speed, root locus, the hunting mode, a run, the damper, the car body."""
 
+from dataclasses import replace
 from math import degrees, isinf
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from yawdesign.output.plots import plot
 from yawdesign.output.report.drawings import curves_over
 from yawdesign.output.report.film import film
 from yawdesign.output.report.fragments import Section, figure, folded, subheading, tables
+from yawdesign.output.report.live_panel import live_panel
 from yawdesign.output.response_tables import damper_tables, simulation_tables
 from yawdesign.output.tables import damping, facts, margin, speed, titled
 from yawdesign.problem import format_quantity
@@ -41,7 +43,7 @@ def damping_over_speed(review: "DesignReview") -> Section | None:
         drawn.append(subheading("Critical speed"))
         told = f"Least decay rate of all modes over the speed; {review.critical_speed.conditions}."
         drawn.append(figure(plot(review.critical_speed), "critical-picture", "Critical speed", told))
-        drawn.append(tables(critical_speed_tables(review.critical_speed)))
+        drawn.append(tables(critical_speed_tables(replace(review.critical_speed, scope=""))))
     return Section("damping", "Damping over speed", "\n".join(drawn))
 
 
@@ -113,6 +115,14 @@ def _at_hunting(found: "DamperComponent") -> "Table":
     for v in VELOCITIES:
         each.append((f"force of each at {1e3 * v:g} mm/s, joints included", format_quantity(z.force(v) / 2, "kN", 3)))
     return facts("At the hunting frequency", each)
+
+
+def live(review: "DesignReview") -> Section | None:
+    """Return the sliders by which other values are looked at in the page itself."""
+    if review.design is None or review.design.bogie.C_s is None:
+        return None
+    panel = live_panel(review.design, review.design.bogie.C_s)
+    return Section("live", "Other values", panel, on_paper=False, whole=True)
 
 
 def car_body(review: "DesignReview") -> Section | None:

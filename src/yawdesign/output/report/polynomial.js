@@ -1,56 +1,5 @@
-// Roots, margins and stable intervals from characteristic polynomials whose coefficients are sums of constants times
-// powers of conicity, creep factor and 1/v. Numbers that need it have 30 digits: two doubles, [high, low].
-
-const SPLITTER = 134217729; // 2^27 + 1
-const NOISE = 2e-32; // of a value of a polynomial, relative to the sum of the magnitudes of its terms
-
-function exactSum(a, b) {
-  const s = a + b;
-  const v = s - a;
-  return [s, a - (s - v) + (b - v)];
-}
-
-function exactProduct(a, b) {
-  const p = a * b;
-  let t = SPLITTER * a;
-  const ah = t - (t - a);
-  t = SPLITTER * b;
-  const bh = t - (t - b);
-  const al = a - ah;
-  const bl = b - bh;
-  return [p, ah * bh - p + ah * bl + al * bh + al * bl];
-}
-
-function plus(x, y) {
-  const [s, e] = exactSum(x[0], y[0]);
-  const [t, f] = exactSum(x[1], y[1]);
-  const c = e + t;
-  const high = s + c;
-  const low = f + (c - (high - s));
-  const sum = high + low;
-  return [sum, low - (sum - high)];
-}
-
-function times(x, y) {
-  const [p, e] = exactProduct(x[0], y[0]);
-  const low = e + (x[0] * y[1] + x[1] * y[0]);
-  const product = p + low;
-  return [product, low - (product - p)];
-}
-
-const minus = (x, y) => plus(x, [-y[0], -y[1]]);
-
-function over(x, y) {
-  const first = x[0] / y[0];
-  const second = minus(x, times(y, [first, 0]))[0] / y[0];
-  return exactSum(first, second);
-}
-
-function power(x, k) {
-  let out = [1, 0];
-  for (let i = 0; i < Math.abs(k); i++) out = times(out, x);
-  return k < 0 ? over([1, 0], out) : out;
-}
+// Characteristic polynomials whose coefficients are sums of constants times powers of conicity, creep factor and 1/v: how
+// many roots are unstable, and at which C_s one of them lies on the imaginary axis.
 
 const bytes = (text) => Uint8Array.from(atob(text), (sign) => sign.charCodeAt(0));
 
@@ -89,93 +38,6 @@ function atDamping(parts, C) {
   return out;
 }
 
-/** p'(z) / p(z), or null where p(z) is zero to all digits. */
-function slope(p, zr, zi) {
-  let [vr, vi, dr, di] = [[0, 0], [0, 0], [0, 0], [0, 0]];
-  let size = 0;
-  const absolute = Math.hypot(zr, zi);
-  const r = [zr, 0];
-  const i = [zi, 0];
-  const negative = [-zi, 0];
-  for (let k = p.length - 1; k >= 0; k--) {
-    [dr, di] = [plus(plus(times(dr, r), times(di, negative)), vr), plus(plus(times(dr, i), times(di, r)), vi)];
-    [vr, vi] = [plus(plus(times(vr, r), times(vi, negative)), p[k]), plus(times(vr, i), times(vi, r))];
-    size = size * absolute + Math.abs(p[k][0]);
-  }
-  const square = Math.hypot(vr[0], vi[0]);
-  if (square <= NOISE * size) return null;
-  const [a, b] = [vr[0] / square, vi[0] / square];
-  const [c, d] = [dr[0] / square, di[0] / square];
-  return [c * a + d * b, d * a - c * b];
-}
-
-/** Where to start: circles from the upper convex hull of log |p_k| (Bini 1996). */
-function starts(p) {
-  const height = p.map((a) => Math.log(Math.abs(a[0])));
-  const hull = [];
-  for (let k = 0; k < p.length; k++) {
-    if (p[k][0] === 0) continue;
-    while (hull.length > 1) {
-      const [i, j] = hull.slice(-2);
-      if ((height[j] - height[i]) * (k - i) > (height[k] - height[i]) * (j - i)) break;
-      hull.pop();
-    }
-    hull.push(k);
-  }
-  const found = [];
-  for (let n = 1; n < hull.length; n++) {
-    const [i, j] = [hull[n - 1], hull[n]];
-    const radius = Math.exp((height[i] - height[j]) / (j - i));
-    for (let k = 0; k < j - i; k++) {
-      const angle = (2 * Math.PI * k) / (j - i) + (2 * Math.PI * n) / p.length + 0.7;
-      found.push([radius * Math.cos(angle), radius * Math.sin(angle)]);
-    }
-  }
-  return found;
-}
-
-/** All roots of a polynomial, by the method of Ehrlich and Aberth. */
-function roots(p) {
-  const zeros = p.findIndex((a) => a[0] !== 0);
-  const q = p.slice(zeros);
-  const reversed = [...q].reverse();
-  const z = starts(q);
-  const n = z.length;
-  const open = new Set(z.keys());
-  for (let step = 0; step < 200 && open.size; step++) {
-    for (const k of open) {
-      const [x, y] = z[k];
-      const square = x * x + y * y;
-      let found;
-      if (square > 1) { // there 1/z is small, a root of the reversed polynomial
-        found = slope(reversed, x / square, -y / square);
-        if (found) {
-          const [wr, wi] = [x / square, -y / square];
-          const [a, b] = [wr * found[0] - wi * found[1], wr * found[1] + wi * found[0]];
-          found = [wr * (n - a) + wi * b, wi * (n - a) - wr * b];
-        }
-      } else found = slope(q, x, y);
-      if (!found) {
-        open.delete(k);
-        continue;
-      }
-      let [a, b] = found;
-      for (let j = 0; j < n; j++) {
-        if (j === k) continue;
-        const [dx, dy] = [x - z[j][0], y - z[j][1]];
-        const distance = dx * dx + dy * dy;
-        a -= dx / distance;
-        b += dy / distance;
-      }
-      const size = a * a + b * b;
-      const [dx, dy] = [a / size, -b / size];
-      z[k] = [x - dx, y - dy];
-      if (Math.hypot(dx, dy) <= 4e-16 * Math.sqrt(square)) open.delete(k);
-    }
-  }
-  return [...Array(zeros).fill([0, 0]), ...z];
-}
-
 /** The number of roots that are not left of the imaginary axis, by Routh's array; NaN where it breaks down. */
 function countUnstable(p) {
   const zeros = p.findIndex((a) => a[0] !== 0);
@@ -192,18 +54,50 @@ function countUnstable(p) {
   return zeros + changes;
 }
 
-/** Real part and imaginary part over w of a polynomial at j w, from its even and odd coefficients; x = w^2. */
-function onAxis(part, x) {
-  const squared = exactProduct(Math.sqrt(x), Math.sqrt(x));
-  const negative = [-squared[0], -squared[1]];
-  const halves = [[0, 0], [0, 0]];
-  for (let k = part.length - 1; k >= 0; k--) halves[k % 2] = plus(times(halves[k % 2], negative), part[k]);
-  return halves;
+/** |p(s)| relative to the sum of the magnitudes of its terms; p in s / unit, s in 1/s. */
+function backwardError(p, [x, y], unit) {
+  const size = Math.hypot(x, y) / unit;
+  const q = size > 1 ? [...p].reverse() : p; // powers of a large s overflow: there 1/s is taken
+  const [u, w] = size > 1 ? [x / (size * size * unit), -y / (size * size * unit)] : [x / unit, y / unit];
+  let [re, im, sum] = [0, 0, 0];
+  const least = Math.max(size > 1 ? 1 / size : size, 1e-3);
+  for (let k = q.length - 1; k >= 0; k--) {
+    [re, im] = [re * u - im * w + q[k][0], re * w + im * u];
+    sum = sum * least + Math.abs(q[k][0]);
+  }
+  return Math.hypot(re, im) / sum;
 }
+
+/** Every second coefficient of a polynomial from a first one on, as a polynomial in -w^2; w a double. */
+function halfAt(part, first, w) {
+  const [x, y] = exactProduct(-w, w);
+  let t = SPLITTER * x;
+  const xh = t - (t - x);
+  const xl = x - xh;
+  let [high, low] = [0, 0];
+  // times and plus written out: a picture needs this a million times.
+  for (let k = part.length - 1 - ((part.length - 1 - first) % 2); k >= first; k -= 2) {
+    const p = high * x;
+    t = SPLITTER * high;
+    const hh = t - (t - high);
+    const hl = high - hh;
+    const error = hh * xh - p + hh * xl + hl * xh + hl * xl + (high * y + low * x);
+    const [a, b] = part[k];
+    const sum = p + a;
+    const v = sum - p;
+    const rest = p - (sum - v) + (a - v) + (error + b);
+    high = sum + rest;
+    low = rest - (high - sum);
+  }
+  return [high, low];
+}
+
+/** Real part, and imaginary part over w, of a polynomial at j w. */
+const onAxis = (part, w) => [halfAt(part, 0, w), halfAt(part, 1, w)];
 
 /** Something that is zero where a root lies on the axis at j w for a real C_s, between -1 and 1; and that C_s. */
 function crossing(parts, w) {
-  const values = parts.map((part) => onAxis(part, w * w));
+  const values = parts.map((part) => onAxis(part, w));
   const size = values.map(([even, odd]) => Math.hypot(even[0], w * odd[0]));
   const across = ([a, b], [c, d]) => minus(times(a, d), times(b, c));
   const first = across(values[0], values[1]);
@@ -231,7 +125,8 @@ function criticalValues(parts) {
     nodes.push([k, value]);
     // A dip towards zero without a change of sign may hide two values: its bottom is looked for.
     const [before, after] = [grid[n - 1]?.[1], grid[n + 1]?.[1]];
-    const dips = value * before > 0 && value * after > 0 && value / before <= 1 && value / after <= 1;
+    const [one, other] = [before / value, after / value];
+    const dips = one >= 1 && other >= 1 && Math.max(one, other) > 2; // two in one step: at least nine times as high
     if (dips) nodes.push(bottom(miss, k - 1, k + 1, Math.sign(value)));
   });
   nodes.sort((a, b) => a[0] - b[0]);
@@ -266,59 +161,4 @@ function bisected(f, low, high) {
     else high = middle;
   }
   return (low + high) / 2;
-}
-
-/** The answers of a vehicle at given values, in SI units. */
-function readVehicle(data) {
-  const motions = data.motions.map(readMotion);
-  let known = {};
-  const partsAt = ({ lambda, creep_factor, v }) => {
-    const key = [lambda, creep_factor, v].join();
-    if (known.key !== key) known = { key, parts: motions.map((x) => x.coefficients(lambda, creep_factor, v)) };
-    return known;
-  };
-  const damped = (C_s) => over([C_s, 0], [data.damping_unit, 0]);
-
-  function rootsAt(point) {
-    const { parts } = partsAt(point);
-    const polynomials = parts.map((part) => atDamping(part, damped(point.C_s)));
-    const each = polynomials.map((p) => roots(p).map(([x, y]) => [x * data.time_unit, y * data.time_unit]));
-    const all = each.flat().sort((a, b) => b[0] - a[0] || Math.abs(a[1]) - Math.abs(b[1]) || b[1] - a[1]);
-    const moved = each.filter((_, k) => motions[k].counts).flat();
-    const undamped = all.filter(([x, y]) => x > -1e-10 * Math.max(1, Math.hypot(x, y))).length;
-    const ratio = ([x, y]) => (x === 0 && y === 0 ? 0 : -x / Math.hypot(x, y));
-    return {
-      roots: all,
-      decay_rate: -Math.max(...moved.map(([x]) => x)),
-      damping_ratio: Math.min(...moved.map(ratio)),
-      spectral_abscissa: all[0][0],
-      stable: undamped === 0 && polynomials.every((p) => countUnstable(p) === 0),
-    };
-  }
-
-  /** The intervals of C_s in which all motions are stable; null where counts do not fit together. */
-  function stableIntervals(point) {
-    const now = partsAt(point);
-    now.intervals ??= [intervals(now.parts)];
-    return now.intervals[0];
-  }
-
-  function intervals([coupled, ...others]) {
-    const values = criticalValues(coupled);
-    const ends = [0, ...values, Infinity];
-    const inside = ends.slice(1).map((b, k) => {
-      const a = ends[k];
-      if (!a) return b === Infinity ? 1 : b / 2;
-      return b === Infinity ? 2 * a : Math.sqrt(a * b);
-    });
-    const counts = inside.map((C) => countUnstable(atDamping(coupled, [C, 0])));
-    const fit = counts.every((count, k) => k === 0 || Math.abs(count - counts[k - 1]) === 2);
-    if (!fit || counts.some(Number.isNaN)) return null;
-    if (others.some((part) => countUnstable(atDamping(part, [0, 0])) !== 0)) return [];
-    const unit = data.damping_unit;
-    const end = (x) => (x === Infinity ? null : x * unit);
-    return counts.flatMap((count, k) => (count === 0 ? [[ends[k] * unit, end(ends[k + 1])]] : []));
-  }
-
-  return { at: (point) => ({ ...rootsAt(point), stable_intervals: stableIntervals(point) }) };
 }

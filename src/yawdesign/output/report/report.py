@@ -3,7 +3,7 @@
 import hashlib
 import json
 import platform
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from importlib.metadata import version
 from os import PathLike
@@ -88,6 +88,7 @@ def origin(problem: Problem, source: Mapping[str, str]) -> dict[str, str]:
     }
 
 
-def file_source(path: Path) -> dict[str, str]:
-    """Return the name of a problem file and the hash of its content."""
-    return {"problem file": path.name, "SHA-256 of that file": hashlib.sha256(path.read_bytes()).hexdigest()}
+def file_source(path: Path, changes: Sequence[str] = ()) -> dict[str, str]:
+    """Return the name of a problem file, the hash of its content, and what was set beside it."""
+    found = {"problem file": path.name, "SHA-256 of that file": hashlib.sha256(path.read_bytes()).hexdigest()}
+    return found | ({"changed by --set": "; ".join(changes)} if changes else {})

@@ -111,6 +111,16 @@ class FollowedModes(Result):
     checked: bool
     condition: Mapping[str, Any]
 
+    def _tables(self) -> dict[str, Mapping[str, Any]]:
+        points, count = len(self.values), len(self.names)
+        columns = {self.axis: np.repeat(self.values, count), "name": list(self.names) * points}
+        numbers = ("frequency", "damping_ratio", "eigenvalues")
+        columns |= {name.replace("eigenvalues", "eigenvalue"): getattr(self, name).ravel() for name in numbers}
+        return {"modes": columns, **super()._tables()}
+
+    def _units(self) -> Mapping[str, str]:
+        return {self.axis: self.unit}
+
 
 def follow_modes(
     problem: Problem, *, condition: Asked = AS_WRITTEN, **axis: Sequence[float | str] | NDArray[np.float64]

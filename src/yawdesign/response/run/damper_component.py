@@ -2,11 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import atan2, inf, pi
+from math import atan2, inf, isinf, pi
 from typing import Any
 
 import numpy as np
 
+from yawdesign.hunting.arrays import Complex
 from yawdesign.hunting.eigenvalues import decay_rate, motion_eigenvalues
 from yawdesign.problem.result import Result
 from yawdesign.response.run.frequency import outputs
@@ -111,6 +112,17 @@ class DamperComponent(Result):
     velocity_rms: float
     velocity_peak: float
     checked: bool
+
+    def complex_stiffness(self, frequency: Any) -> Complex:
+        """Return Z of the pair under harmonic displacements, force over displacement [N/m].
+
+        Parameters
+        ----------
+        frequency : float or array_like
+            [Hz].
+        """
+        damper = 2j * pi * np.asarray(frequency) * self.C_s
+        return np.asarray(damper if isinf(self.K_ds) else damper * self.K_ds / (self.K_ds + damper))
 
 
 def components(system: System, run: Run) -> tuple[DamperComponent, ...]:

@@ -68,6 +68,10 @@ class FrequencyResponse(Result):
             return vars(self).get("amplitudes", {}).get(name)
         raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
+    def _tables(self) -> dict[str, Mapping[str, Any]]:
+        columns = {"wavelength": self.wavelength, "frequency": self.frequency, **self.amplitudes}
+        return {"amplitudes": {name: np.atleast_1d(values) for name, values in columns.items()}}
+
     def _entries(self) -> Mapping[str, Any]:
         """Return its values by the keys of `to_dict`: those of all coordinates that such a vehicle may have."""
         own = {name: value for name, value in super()._entries().items() if name != "amplitudes"}

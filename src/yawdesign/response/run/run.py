@@ -7,6 +7,8 @@ from math import log, pi
 import numpy as np
 
 from yawdesign.hunting.arrays import Complex, Float
+from yawdesign.problem.arguments import Progress
+from yawdesign.problem.progress import unseen
 from yawdesign.response.modes.names import named_roots
 from yawdesign.response.run.frequency import states
 from yawdesign.response.run.ride_comfort import weighted_in_run
@@ -81,9 +83,11 @@ class Run:
     checked: bool
 
 
-def run(system: System, plan: Plan) -> tuple[Run, History]:
-    """Run a vehicle over a track."""
-    trajectory = move(system, plan)
+def run(system: System, plan: Plan, progress: Progress = unseen) -> tuple[Run, History]:
+    """Run a vehicle over a track; `progress` is called with a text and the share that is done."""
+    at = f"at {3.6 * system.v:.4g} km/h"
+    trajectory = move(system, plan, lambda part: progress(f"running {at}", 0.7 * part))
+    progress(f"checking the run {at}", 0.7)
     return _report(system, plan.track, trajectory), trajectory.history(system)
 
 

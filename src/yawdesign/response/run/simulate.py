@@ -4,11 +4,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from yawdesign.hunting.chosen_condition import AS_WRITTEN, Asked, Chosen, chosen
 from yawdesign.hunting.verdict import given_damping
 from yawdesign.problem import Problem, ProblemError
 from yawdesign.problem.arguments import Progress, checked
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
+from yawdesign.problem.progress import between
 from yawdesign.problem.result import Result
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_choice, as_quantity, as_seed, as_several
@@ -85,6 +88,19 @@ class Simulation(Result):
     def to_dict(self) -> dict[str, Any]:
         """Return plain data in SI that JSON can hold, without the histories."""
         return {name: value for name, value in super().to_dict().items() if name != "histories"}
+
+    def _tables(self) -> dict[str, Mapping[str, Any]]:
+        columns: dict[str, Any] = {
+            "speed": np.concatenate([np.full(len(one.time), one.speed) for one in self.histories]),
+            "time": np.concatenate([one.time for one in self.histories]),
+            "distance": np.concatenate([one.distance for one in self.histories]),
+        }
+        names = self.histories[0].values
+        columns |= {name: np.concatenate([one.values[name] for one in self.histories]) for name in names}
+        return {"histories": columns, **{name: x for name, x in super()._tables().items() if name != "histories"}}
+
+    def _units(self) -> Mapping[str, str]:
+        return self.histories[0].units
 
     def __repr__(self) -> str:
         head = f"Simulation on {self.track} with C_s = {self.C_s:.9g} N s/m"
@@ -201,8 +217,7 @@ def _simulation(asked: Chosen, plan: Plan, progress: Progress) -> Simulation:
     systems = [system_at(asked.problem, float(v)) for v in asked.speeds]
     _check_steps(systems, plan)
     for k, system in enumerate(systems):
-        progress(f"running at {3.6 * system.v:.4g} km/h", k / len(systems))
-        one, history = run(system, plan)
+        one, history = run(system, plan, between(progress, k / len(systems), (k + 1) / len(systems)))
         runs.append(one)
         histories.append(history)
     worst, system = max(zip(runs, systems, strict=True), key=lambda both: both[0].spectral_abscissa)

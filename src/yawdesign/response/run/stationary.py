@@ -56,6 +56,10 @@ class StationaryResponse(Result):
     method: str
     condition: Mapping[str, Any]
 
+    def _tables(self) -> dict[str, Mapping[str, Any]]:
+        inputs = {which: [sizes[name] for name in self.rms] for which, sizes in self.rms_of.items()}
+        return {"rms": {"name": list(self.rms), "rms": list(self.rms.values()), **inputs}}
+
 
 def stationary_response(
     problem: Problem, track: Any = "german-low", *, speed: Any = None, condition: Asked = AS_WRITTEN

@@ -1,7 +1,8 @@
 """The vehicle's motion over a track: where it starts, what drives it, and its history."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -125,15 +126,16 @@ class Trajectory:
         return History(system.v, time, time * system.v, values, dict(zip(names, units, strict=True)))
 
 
-def move(system: System, plan: Plan) -> Trajectory:
-    """Return the motion of a vehicle over a track."""
+def move(system: System, plan: Plan, told: Callable[[float], Any] = lambda part: None) -> Trajectory:
+    """Return the motion of a vehicle over a track; `told` is called with the share that is done."""
+    told(0.0)
     clock = planned_clock(system, plan)
     hold = first_order_hold(system.A, system.B, clock.step)
     u, lines = _inputs(system, plan.track, clock)
     force = forced(hold, u) if lines is None else forced_by_lines(system, hold, lines, clock)
     start = "rest" if plan.start == "stationary" and not system.stable else plan.start
     x = _first_state(system, plan, start, hold.transition, force, u, lines)
-    y = march(hold.transition, force, x) @ system.C.T + u @ system.D.T
+    y = march(hold.transition, force, x, lambda part: told((1 + part) / 2)) @ system.C.T + u @ system.D.T
     return Trajectory(start, clock, hold.transition, u, y)
 
 

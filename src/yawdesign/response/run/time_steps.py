@@ -1,6 +1,8 @@
 """Step by step through time: the exact solution for inputs that run straight from one instant to the next."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.linalg import expm
@@ -13,6 +15,7 @@ from yawdesign.response.track.lines import MOST_STEPS, Clock, Lines
 
 PER_PERIOD = 10  # instants in the period of the fastest motion, at least
 USUAL_STEP = 1e-3  # [s]
+TOLD_EVERY = 10_000  # steps after which it is told how many are done
 WELL_DAMPED = 0.7  # a mode with more damping has no period to look at
 
 
@@ -64,11 +67,13 @@ def forced_by_lines(system: System, hold: FirstOrderHold, lines: Lines, clock: C
     return np.asarray((np.exp(1j * np.outer(clock.time[:-1], lines.omega)) @ turned).real)
 
 
-def march(transition: Float, force: Float, x: Float) -> Float:
-    """Return the states at all instants, shape (steps + 1, n)."""
+def march(transition: Float, force: Float, x: Float, told: Callable[[float], Any] = lambda part: None) -> Float:
+    """Return the states at all instants, shape (steps + 1, n); `told` is called with the share that is done."""
     history = np.empty((len(force) + 1, len(x)))
     history[0] = x
     for k, f in enumerate(force):
+        if k % TOLD_EVERY == 0:
+            told(k / len(force))
         x = transition @ x + f
         history[k + 1] = x
     return history

@@ -1,5 +1,6 @@
 """The check of a synthesised track: its own spectrum beside the one it was made from."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -44,6 +45,13 @@ class SpectrumCheck(Result):
     sample: Float
     rms_target: float
     rms_sample: float
+
+    def _tables(self) -> dict[str, Mapping[str, Any]]:
+        return {"densities": {name: getattr(self, name) for name in ("wavenumber", "target", "sample")}}
+
+    def _units(self) -> Mapping[str, str]:
+        unit = {"alignment": "m", "cross_level": "rad"}[self.input]
+        return dict.fromkeys(("target", "sample"), f"{unit}^2/(rad/m)")
 
 
 def spectrum_check(
