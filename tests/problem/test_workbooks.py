@@ -2,6 +2,7 @@
 
 import builtins
 import io
+import json
 import re
 import zipfile
 from pathlib import Path
@@ -276,6 +277,15 @@ def test_files_are_not_replaced_unasked(table1, tmp_path):
     yd.table1().to_excel(table1, replace=True)
     with pytest.raises(yd.ProblemError, match=r"must end in \.xlsx"):
         yd.table1().to_excel(tmp_path / "problem.xls")
+
+
+def test_mistakes_as_json_have_their_cells(changed, table1):
+    changed(bogie_K_ds={"value": -1})
+    done = CliRunner().invoke(app, ["check", str(table1), "--json"])
+    assert done.exit_code == 2
+    (mistake,) = json.loads(done.stdout)["errors"]
+    assert (mistake["cell"], mistake["key"]) == ("problem!B18", "bogie.K_ds")
+    assert "line" not in mistake
 
 
 def test_a_change_is_told_by_its_option(table1):
