@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import yawdesign as yd
-from yawdesign.problem import Problem, ProblemError, Written, exact, load, loads
+from yawdesign.problem import Problem, ProblemError, Written, exact, load, loads, presets
 from yawdesign.problem.parameters import ADDED, BOGIE, CAR_BODY, MOTOR_KEYS, ROLL_KEYS, VERTICAL, parameter_keys
 from yawdesign.problem.quantities import decimal_text
 from yawdesign.problem.table import field_name
@@ -245,3 +245,11 @@ def test_an_optimum_goes_back_into_a_file(tmp_path):
     assert (best.car_body.K_2z, best.bogie.K_2z) == (0.71e6, None)
     assert best.bogie.f_22 == problem.bogie.f_22
     assert best.conditions == problem.conditions
+
+
+def test_a_parameter_that_the_preset_lacks_is_named(monkeypatch):
+    complete = presets.preset_bogie("table1", "power")
+    without = {key: value for key, value in complete.items() if key != "M_b"}
+    monkeypatch.setattr("yawdesign.problem.paper_example.preset_bogie", lambda name, kind: without)
+    with pytest.raises(ProblemError, match=r"bogie\.M_b: is missing: mass of the bogie frame"):
+        yd.table1()
