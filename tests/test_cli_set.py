@@ -130,8 +130,9 @@ def test_dotted_names(changed):
 
 
 def test_bare_names_are_looked_for_in_their_order(changed):
-    problem = changed("K_2z=0.3 MN/m", "leading=1", of=VEHICLE)
-    assert problem == ["--set leading=1: is not known here"]
+    assert changed("K_2z=0.3 MN/m", "qqq=1", of=VEHICLE) == [
+        "--set qqq=1: is not known here; `yawdesign schema` lists what is"
+    ]
     problem = changed("K_2z=0.3 MN/m", "overturning=true", "objective=damping_ratio", of=VEHICLE)
     assert problem.car_body.K_2z == 0.3e6
     assert problem.car_body.overturning
@@ -161,6 +162,11 @@ def test_creep_coefficients_take_the_place_of_creep(changed):
         changed("bogie.creep={kalker_factor: 0.5}", of=CREEP.replace("creep: {kalker_factor: 0.5}", "f_11: 9 MN")).bogie
         == made
     )
+
+
+def test_a_part_without_what_is_removed_from_it(changed):
+    assert changed("bogie.creep=null", of=CREEP).bogie.f_11 == 11511e3
+    assert "bogie.M_b: is missing" in " ".join(changed("bogie.base=null", of=CREEP))
 
 
 def test_a_name_twice(changed):

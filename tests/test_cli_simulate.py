@@ -100,7 +100,7 @@ def test_bad_input(options, message, tmp_path, monkeypatch):
 def test_a_car_body_on_two_bogies(tmp_path, monkeypatch):
     body = CarBody(M_c=34500, J_c=1.521e6, I_c=124304, l_c=9.5, h_s=0.852, h_t=0.97, K_2z=610e3, C_2z=9800)
     problem = replace(yd.table1().replace(C_s="1 MN s/m"), car_body=body)
-    monkeypatch.setattr("yawdesign.cli.responses.read_problem", lambda file: problem)
+    monkeypatch.setattr("yawdesign.cli.responses.read_problem", lambda file, changes: problem)
     png, csv = tmp_path / "run.png", tmp_path / "run.csv"
     options = ["--plot", png, "--response", "y_b1", "--response", "y_b2", "--csv", csv, "--duration", "3 s"]
     result = run(TABLE_1, "--json", *options)

@@ -101,7 +101,8 @@ def test_all_mistakes_are_listed():
     found = messages(M_b="7 186 m", K_ds="-40 MN/m", lambda_=float("nan"), W=True, r="long", J_b=[1])
     assert found == [
         "error: bogie.M_b: 7 186 m is a length, expected a mass such as kg",
-        "error: bogie.J_b: [1] is not a number, expected a moment of inertia in kg·m²",
+        "error: bogie.J_b: [1] is not a number: several that are met stand under conditions, bounds of a choice under "
+        "design.variables",
         "error: bogie.W: true is not a number, expected a force in N",
         "error: bogie.K_ds: -40 MN/m is outside 1e-06 ... 1e+12 MN/m",
         "error: bogie.r: 'long' is not a number with a unit, such as 626.48 kN/m",

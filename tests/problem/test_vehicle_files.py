@@ -291,3 +291,14 @@ def test_the_command_writes_a_file_with_a_car_body(tmp_path):
     assert path.read_text(encoding="utf-8") == starter("trailer", car_body=True)
     result = CliRunner().invoke(app, ["check", str(path)])
     assert (result.exit_code, result.output) == (0, f"{path}: no errors\n")
+
+
+def test_the_axle_load_is_that_of_the_vehicles_that_are_met():
+    loads_that_fit = "conditions: {load: {tare: {W: 167 kN}, laden: {M_c: 40 t, W: 181 kN}}}\n"
+    nominal = VEHICLE.replace("W: 167 kN", "W: 100 kN")
+    assert any("would carry" in message for _, _, message in told(nominal))
+    assert not any("would carry" in message for _, _, message in told(nominal + loads_that_fit))
+    wrong = told(nominal + loads_that_fit.replace("181", "120"))
+    assert [message.partition(":")[0] for _, _, message in wrong if "would carry" in message] == [
+        "conditions.load.laden"
+    ]

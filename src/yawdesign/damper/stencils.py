@@ -42,7 +42,7 @@ def refine(
 
     Each point has a radius of its own, which grows with success and shrinks without, until it is small enough or the
     rounds are over. Half of a stencil follows the
-    last successful step, which is how it walks along a ridge. Points that have come close to a better one are dropped.
+    last successful step, and so it follows a ridge. Points that have come close to a better one are dropped.
     """
     d, n = x.shape
     x, margin, size, step = x.copy(), margin.copy(), np.full(n, radius), np.zeros((d, n))

@@ -57,7 +57,7 @@ class CaseVerdict:
     stable : bool
         All roots lie in the left half-plane, by their eigenvalues and by Routh's array, under every condition.
     decay_rate, damping_ratio : float
-        Margins [1/s], [-] over the modes that some design variable can move.
+        Margins [1/s], [-] over the modes that a design variable moves.
     worst_condition : mapping
         The condition of the least decay rate, of all modes where one is unstable: ``speed`` [m/s], others in SI units,
         a load by its name.
@@ -120,7 +120,7 @@ class Stability(Result):
         Largest real part [1/s] of all modes under any condition: of the bogie's 25 states (15 without
         motors), or the 56 (36) of a vehicle with a car body.
     decay_rate, damping_ratio : float
-        Margins [1/s], [-] over the modes that some design variable can move, each the worst under all conditions.
+        Margins [1/s], [-] over the modes that a design variable moves, each the worst under all conditions.
     eigenvalues : tuple of complex
         All of them [1/s], least damped first.
     modes : tuple of Mode

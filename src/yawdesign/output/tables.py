@@ -185,6 +185,10 @@ def _interval(low: float, high: float) -> str:
     return f"{damping(low)} ... " + ("no limit" if high == float("inf") else damping(high))
 
 
+def _allowed(C_su: float | None) -> str:
+    return damping(C_su) if C_su is None or C_su >= 0 else "none: K_2x and C_t alone exceed the limit"
+
+
 def _design_facts(result: "ForwardDesign") -> Table:
     many = len({tuple(x.condition.items()) for x in result.critical}) > 1
     where = "stable under every condition for C_s in" if many else "stable for C_s in"
@@ -194,7 +198,7 @@ def _design_facts(result: "ForwardDesign") -> Table:
         *(stable or [(where, "none")]),
         ("C_sl, lower end of the stable interval", damping(result.C_sl)),
         *([("the condition that sets it", condition_text(result.worst_condition))] if result.worst_condition else []),
-        (f"C_su, limit of the curve{load}", damping(result.C_su)),
+        (f"C_su, limit of the curve{load}", _allowed(result.C_su)),
         ("C_s, golden section", damping(result.C_s)),
         ("is that C_s stable", "yes" if result.stable else "no"),
     ]

@@ -2,6 +2,7 @@
 
 from .creep import creep_coefficients
 from .diagnostics import Diagnostic, ProblemError
+from .paper_example import table1
 from .parameters import PARAMETERS, Bogie, CarBody
 from .problem import Problem
 from .quantities import Written, exact, format_quantity, parse_quantity, to_unit
@@ -10,7 +11,6 @@ from .running import Curve, SpeedRange
 from .schema import SCHEMA_FILE, schema
 from .starter import starter
 from .table import Parameter
-from .table1 import table1
 from .variables import Design, Variable
 
 __all__ = [

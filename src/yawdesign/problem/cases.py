@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .diagnostics import Diagnostic, Mistakes, ProblemError, suggestion, wrong_key
+from .outside_the_model import why_unknown
 from .parameters import BOGIE, CAR_BODY, PARAMETERS
 from .quantities import decimal_text, format_quantity, split_quantity
 from .table import Parameter, as_quantity, as_text, key_of, shown
@@ -158,7 +159,9 @@ def _key(written: str, others: Mapping[str, object]) -> tuple[str, Parameter]:
     if bogie in BOGIES and name in CAR_BODY and name not in BOGIE:
         raise wrong_key(f"belongs to the car body, of which there is one: write {name}")
     if key not in PARAMETERS and key not in ONE_BOGIE:
-        raise wrong_key(f"is not a parameter{suggestion(key, (*PARAMETERS, *ONE_BOGIE))}")
+        known = (*PARAMETERS, *ONE_BOGIE)
+        near = f"is not a parameter{suggestion(key, known)}"
+        raise wrong_key(near if bogie in BOGIES else why_unknown(key, known, "is not a parameter"))
     if bogie and name in others:
         raise wrong_key(f"stands beside {name}, which means both bogies: give each bogie its own, or both the same")
     return key, PARAMETERS[name].finite

@@ -11,10 +11,11 @@ from .cases import ONE_BOGIE
 from .condition import CREEP_FACTOR
 from .consistency import why_absent
 from .creep import MADE, creep_coefficients
-from .diagnostics import Diagnostic, Mistakes, ProblemError, suggestion, unknown_key
+from .diagnostics import Diagnostic, Mistakes, ProblemError, suggestion
 from .document import Path, compose, plain_data
 from .faults import TOP
 from .file_shape import SWITCHES
+from .outside_the_model import why_unknown
 from .parameters import CAR_BODY, PARAMETERS, VERTICAL, bogie_keys
 from .presets import REMOVED, kind_of_bogie, with_presets
 from .running import CURVE
@@ -129,7 +130,7 @@ def _place(given: NewValue, data: Mapping[str, Any]) -> Path:
     if name in PARAMETERS:
         part = with_presets(data)[0].get("bogie")
         raise ProblemError(why_absent(name, kind, dict.fromkeys(part) if isinstance(part, dict) else {}))
-    raise ProblemError(unknown_key(name, (*places, *TOP)))
+    raise ProblemError(why_unknown(name, (*places, *TOP)))
 
 
 def _places(data: Mapping[str, Any], kind: str) -> dict[str, Path]:

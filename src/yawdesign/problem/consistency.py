@@ -7,8 +7,9 @@ from typing import Literal, get_args
 
 from .cases import Case, outside
 from .condition import CREEP, CREEP_FACTOR, MOST_LISTED, Conditions, Load
-from .diagnostics import Diagnostic, unknown_key
+from .diagnostics import Diagnostic
 from .distributions import Distribution, unfit
+from .outside_the_model import why_unknown
 from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, NO_ROLL, PARAMETERS, ROLL_NEEDS_IT, VERTICAL
 from .requirements import Requirement, without_cases
 from .running import SPEED
@@ -198,7 +199,7 @@ def why_absent(key: str, kind: str, given: Values, known: Collection[str] = ()) 
     if key in PARAMETERS:
         part = "car_body" if key in CAR_BODY and key not in BOGIE else "bogie"
         return f"is not part of this vehicle: give its value under {part} first"
-    return unknown_key(key, known or present(given))
+    return why_unknown(key, known or present(given))
 
 
 def fitting_axle_load(p: Mapping[str, float], kind: str) -> float:

@@ -85,8 +85,8 @@ def creep_coefficients(
 
     The wheel load W/2 presses a cone of radius r on a rail whose head has a radius across; the contact ellipse has the
     semi-axes a along and b across the rail (Hertz). Then f_22 = k C_11 G a b and f_11 = k C_22 G a b with Kalker's
-    coefficients of linear theory: steady rolling, small creep, no spin, wheel and rail of one material. Both grow as W
-    to the power of 2/3. Values between those of Kalker's table are interpolated, to about 1 %.
+    coefficients of linear theory: stationary rolling, small creep, no spin, wheel and rail of one material. Both grow
+    as W to the power of 2/3. Values between those of Kalker's table are interpolated, to about 1 %.
 
     Parameters
     ----------

@@ -10,6 +10,7 @@ from typing import Any
 from .cases import Change, is_percentage
 from .condition import CREEP, CREEP_FACTOR, Conditions
 from .diagnostics import Diagnostic, Mistakes, ProblemError, suggestion
+from .outside_the_model import why_unknown
 from .parameters import PARAMETERS
 from .quantities import format_quantity
 from .running import SPEED
@@ -130,7 +131,7 @@ def _items(value: object, expected: str) -> Iterator[tuple[str, object]]:
 def _row(name: str) -> Parameter:
     rows = {**PARAMETERS, CREEP_FACTOR.key: CREEP_FACTOR, SPEED.key: SPEED}
     if name not in rows:
-        raise ProblemError(f"is not a parameter{suggestion(name, rows)}")
+        raise ProblemError(why_unknown(name, tuple(rows), "is not a parameter"))
     return rows[name].finite
 
 

@@ -86,8 +86,10 @@ def _weight(problem: Problem, data: Mapping[str, Any]) -> Iterator[tuple[Path, s
     if problem.car_body is None:
         return
     designed = problem.parameters()
-    vehicles: dict[Path, dict[str, float]] = {("bogie", "W") if "W" in data["bogie"] else ("car_body",): designed}
-    vehicles |= {("conditions", "load", x.name): designed | dict(x.changes) for x in problem.conditions.loads}
+    loads = problem.conditions.loads  # where there are some, the vehicle is met with one of these
+    vehicles: dict[Path, dict[str, float]]
+    vehicles = {("conditions", "load", x.name): designed | dict(x.changes) for x in loads}
+    vehicles = vehicles or {("bogie", "W") if "W" in data["bogie"] else ("car_body",): designed}
     kind = problem.bogie.kind
     parts = "car body, two bogie frames, four wheelsets" + (" and four motors" if kind == "power" else "")
     for place, p in vehicles.items():

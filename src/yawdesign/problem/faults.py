@@ -13,10 +13,11 @@ from .cases import read_cases
 from .condition import Conditions
 from .consistency import Values, misfits
 from .creep import CREEP, MADE
-from .diagnostics import Diagnostic, ProblemError, nearest, suggestion
+from .diagnostics import Diagnostic, ProblemError, nearest
 from .distributions import read_distributions
 from .document import Path
 from .file_shape import SWITCHES
+from .outside_the_model import answer_to, why_unknown
 from .parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR, bogie_keys, incomplete, parameter_keys
 from .requirements import MEASURES, read_requirements
 from .running import CURVE
@@ -157,6 +158,9 @@ def _told(found: Any, path: Path, kind: str) -> Iterator[Fault]:
             yield Fault(path, _unknown(path, kind), at_key=True)
         case _:
             value = found["input"]
+            if path == ("bogie",) and isinstance(value, list):
+                yield Fault(path, str(answer_to("bogies")))
+                return
             what = "has no value" if value is None else "is not what stands here"
             yield Fault(path, f"{what}, expected keys and values: {', '.join(_allowed(path, kind)[:4])} ...")
 
@@ -179,8 +183,7 @@ def _unknown(path: Path, kind: str) -> str:
         place = f"under {dotted(home)}" if home else f"beside {dotted(around)}, not in it"
         return f"is not a known key here; it belongs {place}"
     allowed = _allowed(around, kind)
-    near = suggestion(key, allowed)
-    return f"is not a known key{near}" if near else f"is not a known key; known here: {', '.join(allowed)}"
+    return why_unknown(key, allowed, "is not a known key")
 
 
 def _allowed(around: Path, kind: str) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from typing import Any, TypeVar, cast
 
 from .characters import refusal
 from .diagnostics import Mistakes, ProblemError, suggestion, warn_of_unit
+from .outside_the_model import why_no_number
 from .quantities import Written, exact, format_number, format_quantity, parse_quantity, split_quantity
 from .units import UnitError, kind_of, parse_unit, si_unit
 
@@ -88,6 +89,8 @@ class Parameter:
         """
         if self.rigid and _is_rigid(value):
             return RIGID
+        if why := why_no_number(value):
+            raise ProblemError(f"{shown(value)} is not a number: {why}")
         number = as_quantity(value, self.unit, self.si)
         low, high = map(exact, self.hard)
         if not low <= number.exact <= high:

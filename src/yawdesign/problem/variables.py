@@ -9,7 +9,8 @@ from typing import Any, Literal, Self, get_args
 
 from .arguments import named, refused
 from .damper_catalogue import CatalogueDamper, as_catalogue
-from .diagnostics import Mistakes, ProblemError, unknown_key
+from .diagnostics import Mistakes, ProblemError
+from .outside_the_model import why_unknown
 from .parameters import PARAMETERS, parameter_keys
 from .table import Parameter, as_choice, check_ends, key_of
 
@@ -116,7 +117,7 @@ class Design:
 
 def _checked_variable(key: object, variable: object) -> Variable:
     if not isinstance(key, str) or key not in PARAMETERS:
-        raise ProblemError(unknown_key(str(key), PARAMETERS))
+        raise ProblemError(why_unknown(str(key), tuple(PARAMETERS)))
     if not isinstance(variable, Variable):
         raise ProblemError(f"{variable!r} is not a Variable(min=..., max=...)")
     return variable.checked(PARAMETERS[key].finite)

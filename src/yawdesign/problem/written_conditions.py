@@ -7,6 +7,7 @@ from typing import TypeVar
 
 from .condition import CREEP_FACTOR, MOST_LISTED, Conditions, Load
 from .diagnostics import Diagnostic, Mistakes, ProblemError, suggestion, wrong_key
+from .outside_the_model import why_unknown
 from .parameters import PARAMETERS
 from .table import Parameter, as_quantity, as_several, as_text, check_ends, key_of, shown
 
@@ -69,7 +70,7 @@ def _row(name: str) -> Parameter:
     if key == "C_s":
         raise wrong_key("is what is designed: a deviation of it is a tolerance, such as tolerance: {C_s: 15 %}")
     if key != CREEP_FACTOR.key and key not in PARAMETERS:
-        raise wrong_key(f"is not a parameter{suggestion(name, (*PARAMETERS, *OWN_KEYS))}")
+        raise wrong_key(why_unknown(name, (*PARAMETERS, *OWN_KEYS), "is not a parameter"))
     return CREEP_FACTOR if key == CREEP_FACTOR.key else PARAMETERS[key].finite
 
 
@@ -118,7 +119,7 @@ def _add_tolerances(found: dict[str, float], written: object) -> None:
         for name, share in _items(written, "K_m: 10 %"):
             with mistakes.under(name):
                 if key_of(name) not in PARAMETERS:
-                    raise wrong_key(f"is not a parameter{suggestion(name, PARAMETERS)}")
+                    raise wrong_key(why_unknown(name, tuple(PARAMETERS), "is not a parameter"))
                 _put(found, PARAMETERS[key_of(name)], _share(share))
     mistakes.report()
 

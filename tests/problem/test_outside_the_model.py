@@ -1,0 +1,125 @@
+"""Keys of other vehicles are answered with what to do, in one line; those of this one are never taken for them."""
+
+import pytest
+
+from yawdesign.problem import ProblemError, loads, table1
+from yawdesign.problem.condition import CREEP_FACTOR
+from yawdesign.problem.creep import CREEP
+from yawdesign.problem.faults import TOP
+from yawdesign.problem.outside_the_model import answer_to
+from yawdesign.problem.parameters import PARAMETERS
+from yawdesign.problem.requirements import MEASURES
+from yawdesign.problem.running import CURVE
+
+OUTSIDE = {
+    "axles": "two wheelsets",
+    "number_of_axles": "two wheelsets",
+    "third_wheelset": "two wheelsets",
+    "nose_suspended": "kind: trailer",
+    "axle_hung_motor": "kind: trailer",
+    "motor_on_axle": "kind: trailer",
+    "motors": "two motors",
+    "dampers_per_side": "twice the C_s and K_ds",
+    "n_yaw": "twice the C_s and K_ds",
+    "yaw_dampers_per_bogie": "twice the C_s and K_ds",
+    "blow_off": "below the blow-off",
+    "friction": "friction has no part",
+    "law": "linear",
+    "nonlinear_damper": "linear",
+    "flange_clearance": "nothing touches",
+    "limits": "nothing touches",
+    "anti_roll_bar": "K_2z + k/(2 b_2^2)",
+    "inter_bogie_stiffness": "no spring or damper joins the bogies",
+    "coupled_cars": "one car",
+    "wheel_profile": "conicity lambda",
+    "kalker_table": "conicity lambda",
+    "bogies": "both bogies, and their ends, are equal",
+    "K_1x_front": "both bogies, and their ends, are equal",
+    "independently_rotating_wheels": "turn together",
+    "radial_steering": "guided by the primary suspension",
+    "active_damper": "passive",
+    "wheelbase": "half of it as a",
+    "gauge": "as b",
+}
+RIGHT = {
+    *PARAMETERS,
+    *CURVE,
+    *CREEP,
+    *MEASURES,
+    *TOP,
+    CREEP_FACTOR.key,
+    "kind",
+    "base",
+    "creep",
+    "load",
+    "objective",
+    "variables",
+}
+SLIPS = (
+    "C_S",
+    "K1x",
+    "conicity",
+    "axle_load",
+    "lamda",
+    "lambda_",
+    "stable",
+    "Cs",
+    "damping",
+    "f_1",
+    "M_car",
+    "vr",
+    "title2",
+)
+
+
+@pytest.mark.parametrize("key", OUTSIDE)
+@pytest.mark.parametrize("part", ["", "bogie", "car_body", "curve"])
+def test_every_part_of_a_file_answers(key, part):
+    around = f", {part}: {{{key}: 3}}" if part not in ("", "bogie") else ""
+    inside = f", {key}: 3" if part == "bogie" else ""
+    top = f", {key}: 3" if not part else ""
+    with pytest.raises(ProblemError) as caught:
+        loads(f"{{bogie: {{base: table1{inside}}}, speed: 300 km/h{around}{top}}}")
+    (line,) = (each.message for each in caught.value.diagnostics if each.key.split(".")[-1] == key)
+    assert OUTSIDE[key] in line
+    assert len(line) < 200
+    assert "\n" not in line
+
+
+@pytest.mark.parametrize("key", ["axles", "n_yaw", "wheel_profile"])
+def test_replace_and_design_variables_answer(key):
+    with pytest.raises(ProblemError, match=OUTSIDE[key]):
+        table1().replace({key: 3})
+    with pytest.raises(ProblemError, match=OUTSIDE[key]):
+        table1().replace({f"design.variables.{key}": {"min": 1, "max": 2}})
+    with pytest.raises(ProblemError, match=OUTSIDE[key]):
+        table1().replace({"conditions": {key: [1, 2]}})
+
+
+@pytest.mark.parametrize("key", [*sorted(RIGHT), *SLIPS])
+def test_what_belongs_here_is_not_taken_for_another_vehicle(key):
+    assert answer_to(key) is None
+
+
+@pytest.mark.parametrize(
+    ("bogie", "fragment"),
+    [
+        (
+            "{base: table1, C_s: {table: [1, 2]}}",
+            "bogie.C_s: {'table': ['1', '2']} is not a number: outside this model",
+        ),
+        ("{base: table1, C_s: {min: 1, max: 2}}", "bounds of a choice under design.variables"),
+        ("{base: table1, lambda: [0.1, 0.2]}", "several that are met stand under conditions"),
+        ("[{base: table1}, {base: table1}]", "both bogies, and their ends, are equal"),
+        ("{base: table1, zzzzz: 3}", "bogie.zzzzz: is not a known key; `yawdesign schema` lists what is"),
+    ],
+)
+def test_values_of_another_vehicle(bogie, fragment):
+    with pytest.raises(ProblemError) as caught:
+        loads(f"{{bogie: {bogie}, speed: 300 km/h}}")
+    assert fragment in str(caught.value)
+
+
+def test_a_short_list_of_names_is_shown():
+    with pytest.raises(ProblemError, match="known here: R, L, l, V_r, limit, load"):
+        loads("{bogie: {base: table1}, speed: 300 km/h, curve: {zzzzz: 3}}")
