@@ -44,7 +44,7 @@ def test_nothing_overlaps_or_is_cut_off(page, width):
 
 def test_an_overlap_and_a_wide_part_would_be_seen(page):
     page.resize(820, 1000)
-    page.evaluate("document.querySelector('h2').style.marginBottom = '-40px'")
+    page.evaluate("document.querySelector('section h2').style.marginBottom = '-40px'")
     page.evaluate("document.querySelector('figure').style.width = '3000px'")
     told = " ".join(page.evaluate(FAULTS))
     page.evaluate("for (const x of document.querySelectorAll('h2, figure')) x.removeAttribute('style')")
