@@ -70,7 +70,7 @@ def test_several_values_at_a_point_have_columns_of_their_own(results):
     frame = results["Sweep"].to_pandas()
     assert list(frame["critical_1"].round(-3)) == [round(values[0], -3) for values in results["Sweep"].values]
     assert np.isnan(frame["critical_2"][0])
-    assert frame.attrs["units"]["critical_3"] == "N·s/m"
+    assert frame.attrs["units"]["critical_2"] == "N·s/m"
 
 
 def test_histories_stand_below_each_other():

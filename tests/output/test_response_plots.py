@@ -147,7 +147,8 @@ def test_pictures_of_a_vehicle(vehicle):
         yd.plot(result, response=["y_b1", "phi_b1"])
     response = yd.plot(yd.frequency_response(vehicle, [10, 20]))
     assert legend(response.figure.axes[1]) == ["car body", "frame, leading", "frame, trailing"]
-    assert len({line.get_linestyle() for line in response.lines}) == 3
+    assert len({line.get_color() for line in response.lines}) == 3
+    assert {line.get_linestyle() for line in response.lines} == {"-", "--"}
     assert response.get_ylabel() == "Lateral [m per\nm of alignment]"
 
 

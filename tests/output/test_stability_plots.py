@@ -40,4 +40,4 @@ def test_what_is_unstable_lies_in_the_hatched_half():
     result = yd.stability(yd.table1().replace(C_s=4e4))
     ax = yd.plot(result)
     assert ax.get_xlim()[1] > max(s.real for s in result.eigenvalues) > 0
-    assert ax.get_title("left").startswith("Unstable: 2 roots")
+    assert ax.get_title("left").replace("\u00a0", " ").startswith("Unstable: 2 roots")

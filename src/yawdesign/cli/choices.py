@@ -14,6 +14,7 @@ from yawdesign.cli.answering import (
     show,
 )
 from yawdesign.cli.pictures import Plot, checked_picture, write_drawing
+from yawdesign.cli.workbooks import Xlsx, checked_workbook, write_result
 
 
 def choose(
@@ -23,16 +24,19 @@ def choose(
     jobs: Jobs = 1,
     dask: Dask = None,
     plot: Plot = None,
+    xlsx: Xlsx = None,
     force: Force = False,
 ) -> None:
     """Rank the dampers of the problem's catalogue, with the reason for each that is refused."""
     with mistakes_told():
-        picture, problem = checked_picture(file, plot, force), read_problem(file, changes)
+        picture, workbook = checked_picture(file, plot, force), checked_workbook(file, xlsx, force)
+        problem = read_problem(file, changes)
         from yawdesign.damper.choose import choose as ranked
         from yawdesign.study.executors import workers
 
         with workers(jobs, dask) as executor, progress_shown() as progress:
             result = ranked(problem, executor=executor, progress=progress)
         write_drawing(result, picture, force)
+        write_result(result, workbook, force)
         show(result, as_json)
     raise ended(checked=result.best is not None or not result.doubtful, feasible=result.best is not None)

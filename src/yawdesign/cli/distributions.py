@@ -18,6 +18,7 @@ from yawdesign.cli.answering import (
     show,
 )
 from yawdesign.cli.pictures import Plot, checked_picture, write_drawing
+from yawdesign.cli.workbooks import Xlsx, checked_workbook, write_result
 
 
 def uncertainty(
@@ -28,6 +29,7 @@ def uncertainty(
     jobs: Jobs = 1,
     dask: Dask = None,
     plot: Plot = None,
+    xlsx: Xlsx = None,
     of: Annotated[str, typer.Option(help="What --plot draws: both (default), tornado, margin or C_sl.")] = "both",
     force: Force = False,
     as_json: AsJson = False,
@@ -45,9 +47,10 @@ def uncertainty(
             as_choice(of, OF)
         except ProblemError as error:
             raise error.under("--of") from None
-        picture = checked_picture(file, plot, force)
+        picture, workbook = checked_picture(file, plot, force), checked_workbook(file, xlsx, force)
         with workers(jobs, dask) as executor, progress_shown() as progress:
             result = found(problem, samples=samples, seed=seed, executor=executor, progress=progress)
         write_drawing(result, picture, force, of=of)
+        write_result(result, workbook, force)
         show(result, as_json)
     raise ended(checked=result.checked, feasible=result.stable)

@@ -54,7 +54,7 @@ def export(
 
 
 def new(
-    file: Annotated[str, typer.Argument(help="The file to write.")] = "problem.yaml",
+    file: Annotated[str, typer.Argument(help="The file to write; .xlsx for a workbook.")] = "problem.yaml",
     kind: Annotated[str, typer.Option(help="power or trailer.")] = "power",
     car_body: Annotated[bool, typer.Option("--car-body", help="With a car body on two such bogies.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
@@ -62,7 +62,10 @@ def new(
     """Write a commented problem file to start from, and beside it the schema that editors use."""
     from yawdesign.output.targets import Target, checked_targets
     from yawdesign.problem import SCHEMA_FILE, ProblemError, starter
+    from yawdesign.problem.problem_workbook import starter_sheets
     from yawdesign.problem.whole_files import write_whole
+    from yawdesign.problem.workbook import is_workbook
+    from yawdesign.problem.workbook_writing import write_workbook
 
     with mistakes_told():
         if kind not in ("power", "trailer"):
@@ -71,6 +74,10 @@ def new(
         if path.name == SCHEMA_FILE:
             raise ProblemError(f"{file}: the schema is written under this name beside the problem: choose another name")
         checked_targets([Target("", file, replaced=force)], [])
+        if is_workbook(file):
+            write_workbook(path, starter_sheets(kind, car_body=car_body), replace=force)
+            write_answer(f"wrote {file}; next: yawdesign optimise {file}\n")
+            return
         write_whole(path, starter(kind, car_body=car_body).encode(), replace=force)
         schema = path.with_name(SCHEMA_FILE)
         beside = f" and {schema}" if path.is_file() and _write_schema(schema, force) else ""

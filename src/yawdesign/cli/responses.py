@@ -152,7 +152,8 @@ def modes(
 
             result = all_modes(problem, condition=under)
         if to_plot:
-            options: dict[str, Any] = {"of": of or "root_locus"} if over else {"mode": animate or None}
+            along = {"of": of or "root_locus", "target": _required_damping(problem)}
+            options: dict[str, Any] = along if over else {"mode": animate or None}
             pictures.write_picture(plots.plot(result, **options), to_plot, replace=force)
         if to_animate:
             from yawdesign.output.animation import animate as write_animation
@@ -162,6 +163,11 @@ def modes(
         tell_condition(problem, result)
         show(result, as_json)
     raise ended(checked=result.checked, feasible=bool(over) or result.stable)
+
+
+def _required_damping(problem: "Problem") -> float | None:
+    """Return the damping ratio that a problem requires without faults [-]."""
+    return next((one.wanted for one in problem.requirements if one.name == "damping_ratio"), None)
 
 
 def _check_modes(*, over: str, plot: str | None, of: str, animate: str, to: str | None) -> None:

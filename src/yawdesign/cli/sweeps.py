@@ -18,6 +18,7 @@ from yawdesign.cli.answering import (
     warnings_told,
 )
 from yawdesign.cli.pictures import Plot, tell_written
+from yawdesign.cli.workbooks import Xlsx, checked_workbook, write_result
 from yawdesign.output.streams import tell
 
 
@@ -35,6 +36,7 @@ def sweep(
     csv: Annotated[str | None, typer.Option(help="Write a table.")] = None,
     npz: Annotated[str | None, typer.Option(help="Write arrays for NumPy.")] = None,
     plot: Plot = None,
+    xlsx: Xlsx = None,
     jobs: Annotated[int, typer.Option(min=1, help="Number of processes.")] = 1,
     dask: Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")] = None,
     resume: Annotated[str | None, typer.Option(help="File that keeps unfinished work, and goes on from it.")] = None,
@@ -52,12 +54,14 @@ def sweep(
 
         asked = request(problem, of, [(name, values) for name, _, values in (x.partition("=") for x in over)], hold)
         outputs = Outputs.checked(file, asked.axes, csv=csv, npz=npz, plot=plot, resume=resume, force=force)
+        workbook = checked_workbook(file, xlsx, force)
         with workers(jobs, dask) as executor, held():
             try:
                 with outputs.rescuing(), progress_shown() as progress, warnings_told():
                     result = answered(asked, executor=executor, resume=resume, progress=progress)
                 with outputs.rescuing(result):
                     outputs.write(result)
+                    write_result(result, workbook, force)
                     tell_written(outputs.csv, outputs.npz, outputs.picture)
                     with let_through():
                         show(result, as_json, indent=None)

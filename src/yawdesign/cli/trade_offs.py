@@ -20,6 +20,7 @@ from yawdesign.cli.answering import (
     show,
 )
 from yawdesign.cli.pictures import Plot, tell_written, write_drawing
+from yawdesign.cli.workbooks import Xlsx, checked_workbook, write_result
 from yawdesign.output.streams import tell
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ def trade_off(
     points: Annotated[int, typer.Option(help="For how many rotational resistances the best design is found.")] = 12,
     csv: Annotated[str | None, typer.Option(help="Write a table.")] = None,
     plot: Plot = None,
+    xlsx: Xlsx = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the search points.")] = 0,
     jobs: Jobs = 1,
     dask: Dask = None,
@@ -41,7 +43,7 @@ def trade_off(
     """Find how much margin each rotational resistance allows, and the design that has it."""
     with mistakes_told():
         problem = read_problem(file, changes)
-        write = _outputs(file, csv, plot, force)
+        write = _outputs(file, csv, plot, xlsx, force)
         from yawdesign.damper.trade_off import IncompleteTradeOffError
         from yawdesign.damper.trade_off import trade_off as front
         from yawdesign.study.executors import workers
@@ -61,7 +63,9 @@ def trade_off(
     raise ended(checked=result.status != "unverified", feasible=bool(result.front))
 
 
-def _outputs(file: str, csv: str | None, plot: str | None, force: bool) -> "Callable[[TradeOff], None]":
+def _outputs(
+    file: str, csv: str | None, plot: str | None, xlsx: str | None, force: bool
+) -> "Callable[[TradeOff], None]":
     """Return what writes the files, if they can be written: better known now than after the work."""
     from yawdesign.output.pictures import PICTURES, check_pictures
     from yawdesign.output.targets import Target, checked_targets
@@ -69,11 +73,13 @@ def _outputs(file: str, csv: str | None, plot: str | None, force: bool) -> "Call
     targets = (Target("--csv", csv, replaced=force), Target("--plot", plot, PICTURES, replaced=force))
     table, picture = checked_targets(targets, [file])
     check_pictures(picture)
+    workbook = checked_workbook(file, xlsx, force)
 
     def write(result: "TradeOff") -> None:
         if table is not None:
             result.to_csv(table, replace=force)
             tell_written(table)
+        write_result(result, workbook, force)
         if result.front:
             write_drawing(result, picture, force)
 

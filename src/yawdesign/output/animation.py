@@ -3,13 +3,14 @@
 import io
 import math
 from collections.abc import Iterator, Sequence
-from html import escape
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from yawdesign.hunting.chosen_condition import other_condition_in_words
+from yawdesign.output.film import Film
+from yawdesign.output.markup import plain_text
 from yawdesign.output.mode_shape_plots import draw_plan, move
 from yawdesign.output.pictures import ANIMATIONS, legend_below, own_texts, put_title
 from yawdesign.output.plan_view import (
@@ -55,8 +56,10 @@ SCRIPT = """(function () {
 })();"""
 
 
-def animate(result: Modes, to: str | Path, *, mode: str | None = None, replace: bool = False) -> Path:
-    """Write a mode in motion to a file.
+def animate(
+    result: Modes, to: str | Path | None = None, *, mode: str | None = None, replace: bool = False
+) -> Path | Film:
+    """Show a mode in motion in a notebook, or write it to a file.
 
     An oscillating mode is shown over one cycle, without its decay or growth; another one as it dies out.
 
@@ -64,9 +67,9 @@ def animate(result: Modes, to: str | Path, *, mode: str | None = None, replace: 
     ----------
     result : Modes
         What `yawdesign.modes` returns.
-    to : str or Path
-        The file; its ending, .gif or .svg, says what is written. The SVG needs nothing but itself, and a viewer that
-        runs scripts.
+    to : str or Path, optional
+        The file; without one a notebook shows what is returned. Its ending, .gif or .svg, says what is written. The SVG
+        needs nothing but itself, and a viewer that runs scripts.
     mode : str, optional
         Name of the mode; the least damped one if not given.
     replace : bool
@@ -74,8 +77,8 @@ def animate(result: Modes, to: str | Path, *, mode: str | None = None, replace: 
 
     Returns
     -------
-    Path
-        The file.
+    Path or Film
+        The file, or what a notebook shows; ``to_jshtml()`` of it is its HTML.
 
     Raises
     ------
@@ -84,6 +87,8 @@ def animate(result: Modes, to: str | Path, *, mode: str | None = None, replace: 
     OSError
         If it cannot be written.
     """
+    if to is None:
+        return Film(svg(result, mode).decode())
     path = Path(to)
     checked_targets([Target("", str(path), ANIMATIONS, replace)], [])
     find_mode(result, mode)
@@ -139,7 +144,7 @@ def _svg(result: Modes, mode: NamedMode) -> str:
     at_rest = [_group(body, f'fill="none" stroke="{REST}"') for body in shown]
     middle = (left + right) / 2
     point = subtitle(result).replace(f"${PARAMETERS['C_s'].symbol}$ ", C_S)
-    head = [*filter(None, (caption(mode), point, escape(other_condition_in_words(result.condition))))]
+    head = [*filter(None, (caption(mode), point, plain_text(other_condition_in_words(result.condition))))]
     texts = [
         *(_text(middle, -top - 4 - LINE * k, line) for k, line in enumerate(reversed(head))),
         *(_text(SCALE * x, -SCALE * y, text) for x, y, text in labels(p)),

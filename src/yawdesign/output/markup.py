@@ -26,6 +26,7 @@ VARIABLES = {
     style.UNKNOWN: "unknown",
     style.EXCLUDED: "excluded",
     style.HATCH_COLOUR: "hatch",
+    style.EXCLUDED_HATCH: "excluded-hatch",
     style.CHOSEN: "chosen",
     style.BEFORE: "before",
     style.GRID: "grid",

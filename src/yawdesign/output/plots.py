@@ -32,7 +32,7 @@ DRAWN_BY: dict[str, tuple[str, str]] = {
 def plot(result: Any, ax: "Axes | None" = None, **options: Any) -> "Axes":
     """Draw any result of this package.
 
-    Texts are set by Matplotlib itself, not by LaTeX.
+    Texts are set by Matplotlib itself, not by LaTeX. A picture of several panels divides the axes it is given.
 
     Parameters
     ----------

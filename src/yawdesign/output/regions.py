@@ -50,7 +50,7 @@ class Regions:
 
     def lines(self, kind: int) -> list[Line]:
         """Return the lines that bound what is of one kind, without the frame of the picture."""
-        return _chained(self.inside.get(kind, []))
+        return chained(self.inside.get(kind, []))
 
     def outline(self, kind: int) -> "Path":
         """Return the area of one kind as one path, to be filled."""
@@ -58,7 +58,7 @@ class Regions:
 
         frame = [line for mine, line in self._frame() if mine == kind]
         return Path.make_compound_path(*(Path(np.array([*loop, loop[0]]), closed=True) for loop in
-                                         _chained(self.inside.get(kind, []) + frame)))  # fmt: skip
+                                         chained(self.inside.get(kind, []) + frame)))  # fmt: skip
 
     def _lines_inside(self) -> Iterator[tuple[int, Line]]:
         """Yield the pieces inside the cells whose corners differ, each with the kind on its left."""
@@ -98,15 +98,17 @@ class Regions:
         return float(self.x[place[1]]), float(self.y[place[0]])
 
 
-def _chained(pieces: list[Line]) -> list[Line]:
+def chained(pieces: list[Line]) -> list[Line]:
     """Return pieces joined end to start; those that begin at no end come first, closed loops after them."""
-    starts = {piece[0]: piece for piece in pieces}
+    starts: dict[Point, list[Line]] = {}
+    for piece in pieces:
+        starts.setdefault(piece[0], []).append(piece)
     ends = {piece[-1] for piece in pieces}
     out = []
     for first in [point for point in starts if point not in ends] + list(starts):
-        line: Line = []
-        while (piece := starts.pop(line[-1] if line else first, None)) is not None:
-            line += piece[1:] if line else piece
-        if line:
+        while starts[first]:
+            line = list(starts[first].pop())
+            while starts.get(line[-1]):
+                line += starts[line[-1]].pop()[1:]
             out.append(line)
     return out

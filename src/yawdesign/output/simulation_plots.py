@@ -31,7 +31,7 @@ STARTS = {"stationary": "stationary motion", "rest": "rest", "offset": "a displa
 
 
 @dataclass(frozen=True)
-class Curve:
+class TimeCurve:
     """One response in one run, in the unit in which people see it.
 
     Parameters
@@ -114,7 +114,7 @@ def _title(result: "Simulation", runs: "Sequence[Run]") -> str:
 
 def _curves(
     chosen: "Sequence[tuple[History, Run]]", names: Sequence[str], apart: dict[str, str], until: float | None
-) -> Iterator[Curve]:
+) -> Iterator[TimeCurve]:
     lines = [(history, one, name) for history, one in chosen for name in names]
     long = min(until or np.inf, max(history.time[-1] for history, _ in chosen)) > LONG
     for k, (history, one, name) in enumerate(lines):
@@ -126,10 +126,10 @@ def _curves(
         label += f": {_growth(one)}" if len(chosen) > 1 and name == names[0] and not long else ""
         factor = SHOWN[history.unit(name)][0]
         look = line_of(k % len(names) if long else k)
-        yield Curve(history.time[shown], factor * history[name][shown], one, label, look)
+        yield TimeCurve(history.time[shown], factor * history[name][shown], one, label, look)
 
 
-def _draw(ax: "Axes", curves: Sequence[Curve], runs: int) -> tuple[list["Axes"], str]:
+def _draw(ax: "Axes", curves: Sequence[TimeCurve], runs: int) -> tuple[list["Axes"], str]:
     """Draw all curves; return the axes, and what the title of the first ones says besides."""
     if max(curve.time[-1] for curve in curves) <= LONG:
         _draw_lines(ax, curves)
@@ -158,13 +158,13 @@ def _growth(one: "Run") -> str:
     return f"free motion {'grows' if rate > 0 else 'decays'} by {abs(rate):.3g} 1/s"
 
 
-def _draw_lines(ax: "Axes", curves: Sequence[Curve]) -> None:
+def _draw_lines(ax: "Axes", curves: Sequence[TimeCurve]) -> None:
     for curve in curves:
         ax.plot(curve.time, curve.values, linewidth=1.1, label=curve.label, **curve.look)
     _over_time(ax, curves)
 
 
-def _over_time(ax: "Axes", curves: Sequence[Curve]) -> None:
+def _over_time(ax: "Axes", curves: Sequence[TimeCurve]) -> None:
     ax.axhline(0, color=LIMIT, linewidth=0.6, zorder=1)
     ax.grid()
     ax.set_xlim(0, max(curve.time[-1] for curve in curves))
@@ -172,7 +172,7 @@ def _over_time(ax: "Axes", curves: Sequence[Curve]) -> None:
         _growing(ax, curve)
 
 
-def _growing(ax: "Axes", curve: Curve) -> None:
+def _growing(ax: "Axes", curve: TimeCurve) -> None:
     """Draw how a motion that grows does so by its eigenvalue, through its largest value."""
     if curve.run.spectral_abscissa <= 0:
         return
@@ -185,7 +185,7 @@ def _growing(ax: "Axes", curve: Curve) -> None:
         ax.plot(curve.time, sign * size, color=BEFORE, linewidth=1.0, linestyle=(0, (4, 2)), label=text)
 
 
-def _draw_envelopes(ax: "Axes", curves: Sequence[Curve]) -> None:
+def _draw_envelopes(ax: "Axes", curves: Sequence[TimeCurve]) -> None:
     for curve in curves:
         edges = np.linspace(0, len(curve.time) - 1, PARTS + 1).astype(int)
         low, high = (f.reduceat(curve.values, edges[:-1]) for f in (np.minimum, np.maximum))
@@ -196,7 +196,7 @@ def _draw_envelopes(ax: "Axes", curves: Sequence[Curve]) -> None:
     _over_time(ax, curves)
 
 
-def _draw_long(ax: "Axes", curves: Sequence[Curve]) -> list["Axes"]:
+def _draw_long(ax: "Axes", curves: Sequence[TimeCurve]) -> list["Axes"]:
     """Draw envelopes, and below them in detail what is around the largest value."""
     upper, lower = divided(ax, rows=(1, 1))
     _draw_envelopes(upper, curves)

@@ -68,7 +68,6 @@ SETTINGS: dict[str, Any] = {
     "legend.frameon": False,
     "legend.fontsize": "small",
     "lines.linewidth": 1.8,
-    "hatch.color": HATCH_COLOUR,
     "hatch.linewidth": 0.6,
     "svg.fonttype": "path",
     "svg.hashsalt": "yawdesign",
@@ -125,7 +124,8 @@ def span(
 
 def area(colour: str) -> dict[str, Any]:
     """Return how an area with a colour is filled."""
-    return {"facecolor": colour, "hatch": HATCHES.get(colour), "edgecolor": HATCH_COLOUR, "linewidth": 0.0}
+    edge = EXCLUDED_HATCH if colour == EXCLUDED else HATCH_COLOUR
+    return {"facecolor": colour, "hatch": HATCHES.get(colour), "edgecolor": edge, "linewidth": 0.0}
 
 
 def hatched(colour: str) -> dict[str, Any]:

@@ -27,6 +27,7 @@ from yawdesign.output.sweep_style import (
     axis_label,
     axis_values,
     columns_of,
+    joined,
     mark_as_written,
     scale_axis,
     shown_factor,
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
 
 # Above each other: values, areas without a value, lines.
 AREAS, LINES = 1.5, 2.5
+ABOVE = 9.0  # from a map to its title, past a mark on its edge [pt]
 SEARCHED = {
     "critical": r"largest critical yaw damping $C_\mathrm{s}$",
     "critical_speed": "critical speed $v$, stable below",
@@ -91,7 +93,7 @@ def draw_map(sweep: Sweep, ax: "Axes") -> "Axes":
     handles += _other_roots(drawn, ax)
     handles += _limit(drawn, ax)
     handles += mark_as_written(ax, sweep, drawn.across.name, drawn.upright.name)
-    set_title(ax, title(sweep))
+    set_title(ax, title(sweep), pad=ABOVE)
     legend_below(ax, handles)
     return ax
 
@@ -171,7 +173,7 @@ def _other_roots(drawn: _Map, ax: "Axes") -> list[Any]:
     swapped = drawn.across.name == "C_s"
     ends = (drawn.x if swapped else drawn.y)[[0, -1]]
     pieces = curves(axis_values(axis), columns_of(lines, to_unit(1.0, "kN·s/m")), *ends)["neither"]
-    points = [[(y, x) for x, y in piece] for piece in pieces] if swapped else pieces
+    points = [[(y, x) for x, y in line] for line in joined(pieces)] if swapped else joined(pieces)
     if not _seen(points, ax):
         return []
     look = critical_line("neither")

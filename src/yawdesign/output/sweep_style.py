@@ -7,6 +7,7 @@ import numpy as np
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.branches import CriticalColumn
 from yawdesign.output.pictures import literal, log_axis, wrapped
+from yawdesign.output.regions import Line, chained
 from yawdesign.output.style import AS_WRITTEN, critical_line
 from yawdesign.problem import to_unit
 from yawdesign.problem.quantities import format_number
@@ -102,13 +103,19 @@ def columns_of(sweep: Sweep, factor: float) -> list[CriticalColumn]:
     return [CriticalColumn(*row) for row in rows]
 
 
+def joined(pieces: list[Line]) -> list[Line]:
+    """Return pieces of curves as whole lines, each to the right."""
+    return chained([piece if piece[0] <= piece[-1] else piece[::-1] for piece in pieces])
+
+
 def draw_lines(ax: "Axes", lines: dict[str, list[Any]], swap: bool = False, label: bool = True) -> None:
     """Draw the pieces of critical curves, coloured by what lies above them."""
     from matplotlib.collections import LineCollection
 
     for kind, pieces in lines.items():
         if pieces:
-            points = [[(y, x) for x, y in piece] for piece in pieces] if swap else pieces
+            lines_of_kind = joined(pieces)  # dashes go on from piece to piece
+            points = [[(y, x) for x, y in line] for line in lines_of_kind] if swap else lines_of_kind
             text = MEANING[kind] if label else None
             ax.add_collection(LineCollection(points, label=text, **critical_line(kind)))
 

@@ -17,10 +17,13 @@ from .quantities import split_quantity
 from .table import shown
 from .text_files import text_of
 from .units import kind_of, parse_unit
+from .workbook import MISTAKE, Workbook, is_workbook
 
 MOST_BYTES = 10_000_000
 MOST_ROWS = 100_000
 MOST_SHOWN = 20  # mistakes
+DAMPERS = "dampers"  # sheet of a workbook
+EMPTY = "is empty: the first line names the columns"
 _HEAD = re.compile(r"(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?")
 _DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+\s*\D*")
 
@@ -33,6 +36,7 @@ class _Cell:
     line: int
     column: int
     source: str
+    place: str = ""  # in a workbook
 
     def mistake(self, path: str, key: str, message: str) -> Diagnostic:
         return Diagnostic(
@@ -42,16 +46,17 @@ class _Cell:
             key=key,
             message=message,
             source_line=self.source,
+            cell=self.place,
             length=len(self.text) or 1,
         )
 
 
 def read_catalogue(path: str | PathLike[str]) -> tuple[CatalogueDamper, ...]:
-    """Read a catalogue of yaw dampers: columns apart by commas, semicolons or tabs.
+    """Read a catalogue of yaw dampers: columns apart by commas, semicolons or tabs, or a workbook (.xlsx).
 
     The first line has the names of the columns with their units: ``name, damping [kN s/m], stiffness [MN/m]``, and
     maybe ``per_side``, ``blow_off [kN]``, ``damping_after [kN s/m]``. A cell may have its own unit. Empty lines and
-    lines that begin with # are left out.
+    lines that begin with # are left out. Of a workbook it is the sheet ``dampers``, or the only one.
 
     Parameters
     ----------
@@ -69,7 +74,7 @@ def read_catalogue(path: str | PathLike[str]) -> tuple[CatalogueDamper, ...]:
         With file, line and column of everything that is wrong.
     """
     name = fspath(path)
-    sheet = _Sheet(name, text_of(name, MOST_BYTES))
+    sheet = _WorkbookSheet(name) if is_workbook(name) else _Sheet(name, text_of(name, MOST_BYTES))
     found = sheet.dampers()
     if len(sheet.mistakes) > MOST_SHOWN:
         more = f"and {len(sheet.mistakes) - MOST_SHOWN} more mistakes"
@@ -117,12 +122,7 @@ class _Sheet:
         self.mistakes: list[Diagnostic] = []
         numbered = enumerate(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"), 1)
         lines = [(n, line) for n, line in numbered if line.strip() and line.lstrip()[0] != "#"]
-        if not lines:
-            raise ProblemError([Diagnostic(path=path, message="is empty: the first line names the columns")])
-        if len(lines) == 1:
-            raise ProblemError([Diagnostic(path=path, message="has no damper in it, only the heads of the columns")])
-        if len(lines) > MOST_ROWS + 1:
-            raise ProblemError([Diagnostic(path=path, message=f"has more than {MOST_ROWS} dampers")])
+        _check_count(path, len(lines))
         self.separator = next((sign for sign in ";\t" if sign in lines[0][1]), ",")
         self.lines = lines
 
@@ -214,6 +214,48 @@ class _Sheet:
             for each in error.diagnostics:
                 self._note(row[each.key], each.key, each.message)
         return None
+
+
+class _WorkbookSheet(_Sheet):
+    """The same of a sheet of a workbook."""
+
+    separator = ""
+
+    def __init__(self, path: str) -> None:
+        self.path, self.mistakes = path, []
+        book = Workbook(path)
+        sheets = {sheet.strip().lower(): sheet for sheet in book.sheets}
+        sheet = sheets.get(DAMPERS) or (book.sheets[0] if len(book.sheets) == 1 else None)
+        if sheet is None:
+            raise book.error(f"has no sheet {DAMPERS}, and not one only; it has {', '.join(map(shown, book.sheets))}")
+        rows = [row for row in book.rows(sheet, MOST_ROWS + 1) if not next(iter(row.values())).text.startswith("#")]
+        _check_count(path, len(rows))
+        self.last = max(rows[0])
+        self.rows = dict(enumerate(rows, 1))
+        self.lines = [(n, "") for n in self.rows]
+
+    def _cells(self, line: int, source: str) -> list[_Cell]:
+        row = self.rows[line]
+        wrong = [cell for cell in row.values() if cell.kind == MISTAKE]
+        for cell in wrong:
+            self._note(_Cell("", line, 1, source, cell.place), "", cell.text)
+        beyond = [cell for k, cell in row.items() if k > self.last]
+        if beyond and not wrong:
+            self._note(_Cell("", line, 1, source, beyond[0].place), "", "stands in no column: it has no head")
+        if wrong or beyond:
+            return []
+        first = next(iter(row.values())).place
+        places = [row[k].place if k in row else first for k in range(self.last + 1)]
+        texts = [row[k].text if k in row else "" for k in range(self.last + 1)]
+        return [_Cell(text, line, k, source, place) for k, (text, place) in enumerate(zip(texts, places, strict=True))]
+
+
+def _check_count(path: str, lines: int) -> None:
+    message = "" if 1 < lines <= MOST_ROWS + 1 else f"has more than {MOST_ROWS} dampers"
+    if lines < 2:
+        message = "has no damper in it, only the heads of the columns" if lines else EMPTY
+    if message:
+        raise ProblemError([Diagnostic(path=path, message=message)])
 
 
 def _value(name: str, text: str, unit: str | None) -> str:

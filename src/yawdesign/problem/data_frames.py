@@ -38,10 +38,10 @@ def data_frame(columns: Mapping[str, Any], units: Mapping[str, str] | None = Non
         If pandas is not installed.
     """
     try:
-        pandas = import_module("pandas")
+        library = import_module("pandas")
     except ImportError:
         raise ProblemError("pandas is not installed: pip install 'yawdesign[pandas]'") from None
-    frame = pandas.DataFrame(dict(columns))
+    frame: pandas.DataFrame = library.DataFrame(dict(columns))
     known = {name: UNITS[name.rpartition(".")[2]] for name in columns if name.rpartition(".")[2] in UNITS}
     frame.attrs["units"] = {name: unit for name, unit in {**known, **(units or {})}.items() if name in columns}
     return frame

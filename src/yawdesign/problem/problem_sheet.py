@@ -5,21 +5,21 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from pathlib import Path as FilePath
 from typing import Literal
 
-from .damper_catalogue import COLUMNS
-from .diagnostics import Diagnostic, ProblemError, suggestion
+from .catalogue_file import DAMPERS
+from .diagnostics import Diagnostic, ProblemError
 from .document import Document, Mapping, Node, Scalar, Sequence, compose
 from .quantities import split_quantity
 from .table import shown
-from .workbook import MISTAKE, NUMBER, TEXT, Cell, Row, Workbook
+from .workbook import MISTAKE, TEXT, Cell, Row, Workbook
 
-SHEET, DAMPERS = "problem", "dampers"
+SHEET = "problem"
 HEADS = ("key", "value", "unit", "meaning")
 MOST_ROWS = 2_000
 # `cases.NAME.leading.C_s`: what stands behind the name, which is the user's and may have points.
 _OF_CASE = re.compile(r"(?P<name>.+?)\.(?P<key>(?:(?:leading|trailing)\.)?\w+)", re.DOTALL)
-_HEAD = re.compile(r"(?P<name>[^\[\]]*?)\s*(?:\[(?P<unit>[^\[\]]*)\])?")
 
 
 @dataclass
@@ -72,7 +72,7 @@ def workbook_document(name: str) -> SheetDocument:
     for key, value, unit in _entries(document, rows):
         _add(document, root, key, value, unit)
     if DAMPERS in sheets:
-        _add_dampers(document, root, book.rows(sheets[DAMPERS], MOST_ROWS))
+        _add_dampers(document, root, sheets[DAMPERS])
     document.root = root.finished() if root.values else Scalar(0, 0)
     return document
 
@@ -83,10 +83,8 @@ def _columns(document: SheetDocument, head: Row) -> dict[str, int]:
     missing = [name for name in HEADS[:2] if name not in found]
     if missing:
         where = document.place(next(iter(head.values())))
-        heads = ", ".join(HEADS)
-        raise document.fail(
-            where, f"the column {' and the column '.join(missing)} is missing: the first row has {heads}"
-        )
+        text = f"the column {' and the column '.join(missing)} is missing: the first row has {', '.join(HEADS)}"
+        raise document.fail(where, text)
     return found
 
 
@@ -196,40 +194,18 @@ def _with_unit(document: SheetDocument, node: Node, unit: Cell, key: str) -> Nod
     return replace(node, text=node.text if unit.text == "-" else f"{node.text} {unit.text}")
 
 
-def _add_dampers(document: SheetDocument, root: _Branch, rows: list[Row]) -> None:
-    """Put a sheet of dampers into the tree, as the catalogue of the design."""
-    if len(rows) < 2:
-        return
-    heads = {k: _HEAD.fullmatch(cell.text) for k, cell in rows[0].items()}
-    names = {k: head["name"] if head else rows[0][k].text for k, head in heads.items()}
-    for k, name in names.items():
-        if name not in COLUMNS:
-            message = f"{shown(name)} is no column{suggestion(name, COLUMNS)}; columns are {', '.join(COLUMNS)}"
-            document.note(document.place(rows[0][k]), message)
-    units = {k: head["unit"] if head else None for k, head in heads.items()}
-    items = tuple(_damper(document, row, names, units) for row in rows[1:])
-    design = root.values.setdefault("design", _Branch(Node(0, 0)))
-    where = document.place(next(iter(rows[0].values())))
+def _add_dampers(document: SheetDocument, root: _Branch, sheet: str) -> None:
+    """Name the workbook itself as the catalogue of the design: its sheet of dampers is read as any other."""
+    where = document.place(f"{sheet}!A1")
+    design = root.values.setdefault("design", _Branch(where))
     root.keys.setdefault("design", where)
-    if isinstance(design, _Branch):
-        if "catalogue" in design.keys:
-            text = f"the dampers stand in the sheet {DAMPERS}, and here as well"
-            document.note(design.keys["catalogue"], text, "design.catalogue")
-        design.keys["catalogue"], design.values["catalogue"] = where, Sequence(where.start, where.end, items=items)
-
-
-def _damper(document: SheetDocument, row: Row, names: dict[int, str], units: dict[int, str | None]) -> Mapping:
-    found = Mapping(*_ends(document.place(next(iter(row.values())))))
-    for k, cell in row.items():
-        name, where = names.get(k, ""), document.place(cell)
-        if cell.kind == MISTAKE:
-            document.note(where, cell.text, name)
-            continue
-        unit = units.get(k)
-        text = f"{cell.text} {unit}" if unit and cell.kind == NUMBER else cell.text
-        found.keys[name] = where
-        found.values[name] = Scalar(where.start, where.end, text=text, plain=name != "name")
-    return found
+    if not isinstance(design, _Branch):
+        return
+    if "catalogue" in design.keys:
+        text = f"the dampers stand in the sheet {DAMPERS}: leave this row out, or rename the sheet"
+        document.note(design.keys["catalogue"], text, "design.catalogue")
+    name = FilePath(document.path).name
+    design.keys["catalogue"], design.values["catalogue"] = where, Scalar(*_ends(where), text=name, plain=False)
 
 
 def _ends(node: Node) -> tuple[int, int]:

@@ -6,16 +6,18 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
+from .catalogue_file import DAMPERS
 from .damper_catalogue import COLUMNS, QUANTITIES
 from .diagnostics import ProblemError
 from .document import Document, Mapping, Node, Scalar, Sequence, compose
 from .parameters import ADDED, BOGIE, PARAMETERS, VERTICAL
-from .problem_sheet import DAMPERS, HEADS, SHEET, path_of
+from .problem_sheet import HEADS, SHEET, path_of
 from .quantities import split_quantity
 from .running import CURVE
 from .starter import starter
 from .workbook_writing import MOST_SIGNS, Sheet
 
+DIGITS = 16  # with which openpyxl writes a number
 MEANINGS = {
     "title": "any text",
     "equations": "reciprocal, or as-printed to compare with the paper",
@@ -96,7 +98,7 @@ def _value_and_unit(node: Scalar) -> tuple[Any, str | None]:
     except ProblemError:
         return node.text, None
     nearest = float(number)
-    if Fraction(repr(nearest)) != number:
+    if Fraction(f"{nearest:.{DIGITS}g}") != number:
         return node.text, None
     return (int(nearest) if nearest.is_integer() and abs(nearest) < 1e15 else nearest), unit or None
 

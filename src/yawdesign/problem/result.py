@@ -3,10 +3,13 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, is_dataclass
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from .data_frames import chosen_table, data_frame, only_row, tables_in
 from .notebook_view import NotebookView
+from .result_workbook import result_sheets
+from .workbook_writing import write_workbook
 
 if TYPE_CHECKING:
     import pandas
@@ -46,6 +49,23 @@ class Result(NotebookView):
         if not tables and of is None:
             return data_frame(only_row(self), self._units())
         return data_frame(tables[chosen_table(self, tables, of)], self._units())
+
+    def to_excel(self, path: str | PathLike[str], *, replace: bool = False) -> None:
+        """Write its tables as a workbook, a sheet each, with SI units in the heads and where it comes from.
+
+        Parameters
+        ----------
+        path : path
+            Its name ends in .xlsx.
+        replace : bool
+            Whether another file may be replaced.
+
+        Raises
+        ------
+        ProblemError
+            If there is a file and it may not be replaced, or openpyxl is not installed (``yawdesign[excel]``).
+        """
+        write_workbook(path, result_sheets(self, self._tables(), self._units()), replace=replace)
 
     def _tables(self) -> dict[str, Mapping[str, Any]]:
         """Return its tables by name, the first one first: columns by name."""

@@ -7,6 +7,7 @@ import re
 import zipfile
 from dataclasses import dataclass
 from decimal import Decimal
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -86,9 +87,8 @@ class Workbook:
         try:
             content = _content_of(Path(name))
             # Twice: the values that were kept, and the formulas, of which some may have none.
-            self._books = [
-                library.load_workbook(io.BytesIO(content), read_only=True, data_only=x) for x in (True, False)
-            ]
+            opened = partial(library.load_workbook, read_only=True)
+            self._books = [opened(io.BytesIO(content), data_only=kept) for kept in (True, False)]
         except ProblemError as error:
             raise self.error(error.diagnostics[0].message) from None
         except (OSError, ValueError) as error:

@@ -85,12 +85,12 @@ def _fill(page: Any, sheet: Sheet) -> None:
 
 def _put(cell: Any, value: Any) -> None:
     """Put a value into a cell; a text that begins like a formula is none."""
-    if isinstance(value, float) and not isfinite(value):
-        value = str(value)
-    if not isinstance(value, str):
-        cell.value = value if isinstance(value, bool) else float(value) if isinstance(value, float) else value
+    if hasattr(value, "tolist"):  # of NumPy
+        value = value.tolist()
+    if isinstance(value, (bool, int)) or (isinstance(value, float) and isfinite(value)):
+        cell.value = float(value) if isinstance(value, float) else value
         return
-    text = cell_text(value)
+    text = cell_text(str(value))
     cell.value = text
     cell.data_type = "s"
     cell.quotePrefix = text.startswith(_TAKEN_FOR_FORMULAS)

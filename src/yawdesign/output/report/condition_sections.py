@@ -1,14 +1,12 @@
 """Sections on conditions: requirements, the worst conditions, faults, and maps around them."""
 
-from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.output.condition_texts import condition_text
 from yawdesign.output.plots import plot
-from yawdesign.output.report.drawings import bars, marked
+from yawdesign.output.report.drawings import bars, marked, of_design
 from yawdesign.output.report.fragments import Section, figure, paragraph, tables
 from yawdesign.output.tables import case_tables, margin, requirement_tables, titled
-from yawdesign.problem import to_unit
 from yawdesign.study.review_axes import mount
 
 if TYPE_CHECKING:
@@ -88,13 +86,9 @@ def chart(review: "DesignReview") -> Section | None:
     """Return what is stable over speed and yaw damping."""
     if review.chart is None or review.design is None:
         return None
-    C_s, v = float(review.design.bogie.C_s or 0.0), max(review.design.speeds)
-    axes = marked(plot(review.chart), [(to_unit(C_s, "kN·s/m"), to_unit(v, "km/h"))])
-    limit = review.forward.C_su
-    if limit is not None and isfinite(limit) and limit > 0:
-        axes.axvline(to_unit(limit, "kN·s/m"), color="black", linestyle="dashed", linewidth=1.2)
+    axes = of_design(plot(review.chart))
     told = (
-        f"What is stable over running speed and yaw damping, {_under(review.chart)}. The diamond is this design; the "
+        f"What is stable over running speed and yaw damping, {_under(review.chart)}. The ring is this design; the "
         "dashed line is what the curve allows."
     )
     drawn = figure(axes, "chart-picture", "Stability over speed and yaw damping", told)
@@ -113,9 +107,9 @@ def wear(review: "DesignReview") -> Section | None:
     points = sorted(
         {(row.condition.get("lambda", own), row.condition.get("creep_factor", 1.0)) for row in review.each_condition}
     )
-    axes = marked(plot(review.wear), points, chosen=False)
+    axes = marked(of_design(plot(review.wear)), "condition", points)
     what = "Margin of this design over conicity and creep"
-    told = f"{what}, {_under(review.wear)}. Circles are the conditions of the problem."
+    told = f"{what}, {_under(review.wear)}. The dots are the conditions of the problem."
     return Section("wear", "Conicity and creep", figure(axes, "wear-picture", "Margin over conicity and creep", told))
 
 
@@ -123,12 +117,11 @@ def mounts(review: "DesignReview") -> Section | None:
     """Return the margin over frequency and damping of the motor suspension."""
     if review.mounts is None or review.design is None:
         return None
-    axes = marked(plot(review.mounts), [mount(review.problem)], chosen=False)
-    marked(axes, [mount(review.design)])
+    axes = marked(of_design(plot(review.mounts)), "before", [mount(review.problem)])
     f_m, xi_m = mount(review.design)
     told = (
-        f"Margin over the motor suspension, with the yaw damper of this design, {_under(review.mounts)}. The diamond "
-        f"is this design ({f_m:.3g} Hz, {100 * xi_m:.3g} %), the circle the motor suspension as written."
+        f"Margin over the motor suspension, with the yaw damper of this design, {_under(review.mounts)}. The ring is "
+        f"this design ({f_m:.3g} Hz, {100 * xi_m:.3g} %), the square the motor suspension as written."
     )
     return Section(
         "mounts", "Motor suspension", figure(axes, "mounts-picture", "Margin over the motor suspension", told)

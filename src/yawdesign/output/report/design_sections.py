@@ -6,7 +6,6 @@ from math import isinf
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.output.choice_tables import choice_tables
-from yawdesign.output.pictures import legend_below
 from yawdesign.output.plots import plot
 from yawdesign.output.report.drawings import bars, marked
 from yawdesign.output.report.fragments import Section, figure, paragraph, tables
@@ -29,8 +28,7 @@ def intervals(review: "DesignReview") -> Section:
     axes = plot(forward)
     if chosen is not None:
         text = f"{format_quantity(chosen, 'kN·s/m', 4)}, this design"
-        marked(axes, [(to_unit(chosen, "kN·s/m"), 0.5)], label=text, transform=axes.get_xaxis_transform())
-        legend_below(axes)
+        marked(axes, "design", [(to_unit(chosen, "kN·s/m"), 0.5)], label=text, transform=axes.get_xaxis_transform())
     rows = [("stable for C_s in", _intervals(review)), ("C_sl, least stable", damping(forward.C_sl))]
     rows += [("C_su, curve's limit", damping(forward.C_su)), ("C_s, golden section between them", damping(forward.C_s))]
     rows += [("C_s of this design", damping(chosen))] if chosen is not None else []

@@ -46,14 +46,28 @@ def bars(names: Sequence[str], values: Sequence[float], label: str, texts: Seque
     return ax
 
 
-def marked(ax: "Axes", points: Sequence[tuple[float, float]], *, chosen: bool = True, **more: Any) -> "Axes":
-    """Mark points of a picture: the design by a full diamond, others by hollow circles; `more` goes to Matplotlib."""
-    look: dict[str, Any] = {"marker": "D", "markersize": 8, "markerfacecolor": style.CHOSEN, "markeredgecolor": "white"}
-    if not chosen:
-        look = {"marker": "o", "markersize": 7, "markerfacecolor": "white", "markeredgecolor": "black"}
+MARKS: dict[str, dict[str, Any]] = {
+    "design": {"marker": "D", "markersize": 8, "markerfacecolor": style.CHOSEN, "markeredgecolor": "white"},
+    "before": {"marker": "s", "markersize": 7, "markerfacecolor": "white", "markeredgecolor": style.BEFORE},
+    "condition": {"marker": "o", "markersize": 4, "markerfacecolor": style.LIMIT, "markeredgecolor": "white"},
+}
+
+
+def marked(ax: "Axes", kind: str, points: Sequence[tuple[float, float]], **more: Any) -> "Axes":
+    """Mark points of a picture by the sign of a kind, one of `MARKS`; `more` goes to Matplotlib."""
     with own_texts():
         x, y = zip(*points, strict=True)
-        ax.plot(x, y, linestyle="none", zorder=5, clip_on=False, **look, **more)
+        ax.plot(x, y, linestyle="none", zorder=5, clip_on=False, **MARKS[kind], **more)
+        if "label" in more:
+            legend_below(ax)
+    return ax
+
+
+def of_design(ax: "Axes") -> "Axes":
+    """Call the point that a map marks by its name in this page: there the design stands in the place of the problem."""
+    legend = ax.get_legend()
+    for text in legend.get_texts() if legend else ():
+        text.set_text(text.get_text().replace("as written", "this design"))
     return ax
 
 

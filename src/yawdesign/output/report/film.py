@@ -38,7 +38,7 @@ def film(result: "Modes", mode: str | None, name: str, title: str, description: 
         root.remove(script)
     for own in root.findall(f"{{{SVG}}}title"):
         root.remove(own)
-    for key in ("role", "width", "height"):
+    for key in ("role", "width", "height", "style"):
         root.attrib.pop(key, None)
     svg = markup.embedded(ElementTree.tostring(root, encoding="unicode"), name, title, description)
     control = (

@@ -187,6 +187,7 @@ function drawIntervals(intervals, C_s) {
     drawn(line, "line", { class: "axis", x1: along(C), x2: along(C), y1: 40, y2: 45 });
     drawn(line, "text", { x: along(C), y: 58, "text-anchor": k === 5 ? "end" : "middle" }, (C / 1e3).toLocaleString("en").replaceAll(",", "\u202f"));
   }
+  drawn(line, "text", { x: 300, y: 74, "text-anchor": "middle" }, "C_s [kN\u00b7s/m]");
   drawn(line, "rect", { class: "frame", ...whole });
   drawn(line, "path", { class: "chosen", d: `M${along(C_s)} 6v40` });
   drawn(line, "path", { class: "chosen point", d: `M${along(C_s) - 5} 2h10l-5 8z` });

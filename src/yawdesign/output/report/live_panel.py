@@ -57,7 +57,7 @@ PAGE = """\
 <div class="values" role="group" aria-label="Values">
 {rows}
 </div>
-<button type="button" id="live-reset">Back to the values of the problem</button>
+<button type="button" id="live-reset">Back to the design</button>
 <p class="answer"><output id="live-verdict" aria-live="polite"></output></p>
 <dl>
 <dt>Decay rate</dt><dd><output id="live-decay-rate"></output></dd>
@@ -66,14 +66,14 @@ PAGE = """\
 <dt>Stable for C_s</dt><dd><output id="live-intervals"></output></dd>
 </dl>
 <p>Decay rate and damping ratio are the least over the modes that a design variable moves.</p>
-<svg viewBox="0 0 600 64" role="img" aria-labelledby="live-axis-title live-intervals">
+<svg viewBox="0 0 600 78" role="img" aria-labelledby="live-axis-title live-intervals">
 <title id="live-axis-title">Stable intervals of C_s [kN\u00b7s/m], and C_s</title>
 <defs><pattern id="live-hatch" width="7" height="7" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">\
 <path class="hatch" d="M0 0v7"/></pattern></defs><g id="live-axis-drawn"></g></svg>
 <svg viewBox="0 0 600 300" role="img" aria-labelledby="live-plane-title live-plane-description">
 <title id="live-plane-title">Roots of the characteristic polynomial</title>
 <desc id="live-plane-description"></desc><g id="live-plane-drawn"></g></svg>
-<p>Crosses: roots now; triangles: roots that grow; circles: roots at the values of the problem. \
+<p>Crosses: roots now; triangles: roots that grow; circles: roots of the design. \
 <span id="live-plane-note"></span></p>
 <script type="application/json" id="live-data">{data}</script>
 <script>(() => {{
@@ -84,9 +84,9 @@ PAGE = """\
 """
 
 ABOUT = (
-    "Computed in this page, for one condition: the values given here, all other parameters as written in the problem. "
-    "The verdict and the stable intervals come from the characteristic polynomial of every motion of the vehicle, the "
-    "roots from its state matrix; that each of them is a root of the polynomial, and that both count as many unstable "
+    "Computed in this page, for one condition: the values given here, while all other parameters stay as designed. The "
+    "verdict and the stable intervals come from the characteristic polynomial of every motion of the vehicle, the "
+    "roots from its state matrix. That each of them is a root of the polynomial, and that both count as many unstable "
     "ones, is checked every time."
 )
 

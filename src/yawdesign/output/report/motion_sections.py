@@ -1,5 +1,6 @@
 """Sections on how it moves: damping over speed, root locus, the hunting mode, a run, the damper, the car body."""
 
+from dataclasses import replace
 from math import degrees, isinf
 from typing import TYPE_CHECKING
 
@@ -42,7 +43,7 @@ def damping_over_speed(review: "DesignReview") -> Section | None:
         drawn.append(subheading("Critical speed"))
         told = f"Least decay rate of all modes over the speed; {review.critical_speed.conditions}."
         drawn.append(figure(plot(review.critical_speed), "critical-picture", "Critical speed", told))
-        drawn.append(tables(critical_speed_tables(review.critical_speed)))
+        drawn.append(tables(critical_speed_tables(replace(review.critical_speed, scope=""))))
     return Section("damping", "Damping over speed", "\n".join(drawn))
 
 

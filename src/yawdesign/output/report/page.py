@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from yawdesign.output import markup
 from yawdesign.output.report import closing_sections, condition_sections, design_sections, motion_sections, verdict
 from yawdesign.output.report.fragments import Section
+from yawdesign.output.report.glyphs import shared_letters
 
 if TYPE_CHECKING:
     from yawdesign.study.design_review import DesignReview
@@ -56,7 +57,7 @@ def page(review: "DesignReview", origin: Mapping[str, str]) -> str:
     found = [section for each in SECTIONS if (section := each(review)) is not None]
     found.append(closing_sections.provenance(origin))
     title = review.problem.title or UNTITLED
-    main = "\n".join(section.html for section in found)
+    main = shared_letters("\n".join(section.html for section in found))
     return "\n".join(
         [
             "<!DOCTYPE html>",
