@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from yawdesign.output.pictures import own_texts
 from yawdesign.output.plots import plot
-from yawdesign.problem import format_quantity
+from yawdesign.problem import PARAMETERS, format_quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,9 +33,8 @@ def response_panels(run: "Simulation", names: Sequence[str], title: str) -> "Axe
             legend.remove()
         ax.set_ylabel(ax.get_ylabel().replace(" of the frame", ""))
         ax.set_title(f"({letter})", loc="left", fontsize="medium")
-        ax.grid(alpha=0.25)
     panels[0].set_xlabel("")
-    figure.suptitle(title, fontsize="medium")
+    figure.suptitle(title.replace("C_s", f"${PARAMETERS['C_s'].symbol}$"), fontsize="medium")
     return panels[0]
 
 
