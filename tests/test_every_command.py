@@ -168,6 +168,19 @@ def test_choose(answered, file, spectrum):
 
 
 @pytest.mark.slow
+def test_report(answered, file, tmp_path, spectrum):
+    data = json.loads(file.read_text(encoding="utf-8"))
+    data |= {"curve": None, "design": {"variables": {"C_s": {"min": 2e5, "max": 4e6}}}}
+    file.write_text(json.dumps({key: value for key, value in data.items() if value is not None}), encoding="utf-8")
+    best = answered("optimise", codes=(0, 1))
+    answered("report", "--to", str(tmp_path / "page.html"), codes=(0, 1), plain=True)
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert f"{best['margin']:.6g} 1/s" in page
+    s = spectrum(C_s=best["C_s"])
+    assert min(abs(s.real + best["margin"])) < 1e-6
+
+
+@pytest.mark.slow
 def test_trade_off(answered, spectrum):
     front = answered("trade-off", "--points", "2", codes=(0, 1))["front"]
     for point in front:

@@ -84,7 +84,7 @@ def test_the_damper_can_be_read(problems, layout_faults):
 
 
 def test_long_titles_and_several_runs_can_be_read(problems, layout_faults):
-    runs = yd.simulate(problems["bogie"], duration=20, step="2 ms", speed=["250 km/h", "300 km/h"])
+    runs = yd.simulate(problems["bogie"], duration=13, step="2 ms", speed=["250 km/h", "300 km/h"])
     assert layout_faults(yd.plot(replace(runs, track=ROAD))) == []
     check = yd.spectrum_check(length="2 km")
     assert layout_faults(yd.plot(replace(check, track=ROAD))) == []

@@ -23,6 +23,7 @@ FIRST = {
     "StationaryResponse": "rms",
     "SpectrumCheck": "densities",
     "Modes": "modes",
+    "Reproduction": "rows",
     "FollowedModes": "modes",
 }
 

@@ -124,8 +124,8 @@ def vehicle():
 
 
 def title(ax):
-    """Return a title as it is read: some of its blanks end no line."""
-    return ax.get_title("left").replace("\u00a0", " ")
+    """Return a title as it is read, in one line."""
+    return ax.get_title("left").replace("\n", " ")
 
 
 def legend(ax):

@@ -31,7 +31,7 @@ def test_margins_are_lines(result):
     assert f"least damping ratio {100 * result.damping_ratio:.3g} %" in labels
     assert "required damping ratio 5 %" in labels
     assert f"least decay rate {result.decay_rate:.3g} 1/s" in labels
-    title = ax.get_title("left").replace("\u00a0", " ")
+    title = ax.get_title("left").replace("\n", " ")
     assert title.startswith("Stable, ")
     assert "300 km/h" in title
 
@@ -40,4 +40,4 @@ def test_what_is_unstable_lies_in_the_hatched_half():
     result = yd.stability(yd.table1().replace(C_s=4e4))
     ax = yd.plot(result)
     assert ax.get_xlim()[1] > max(s.real for s in result.eigenvalues) > 0
-    assert ax.get_title("left").replace("\u00a0", " ").startswith("Unstable: 2 roots")
+    assert ax.get_title("left").replace("\n", " ").startswith("Unstable: 2 roots")

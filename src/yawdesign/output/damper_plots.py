@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from yawdesign.output.panels import divided, log_numbers
-from yawdesign.output.pictures import legend_below, new_axes, put_title, quantity
+from yawdesign.output.panels import divided
+from yawdesign.output.pictures import legend_below, log_axis, new_axes, put_title, quantity
 from yawdesign.output.style import BEFORE, CHOSEN, LIMIT
 
 if TYPE_CHECKING:
@@ -43,8 +43,8 @@ def damper_component(result: "DamperComponent", ax: "Axes | None" = None) -> "Ax
         lower.axhline(height, **look)
     lower.set(ylim=(-4, 94), yticks=[0, 30, 60, 90], ylabel="phase [°]", xlabel="frequency [Hz]", xlim=(LOW, HIGH))
     upper.set_ylabel("|Z| of the pair [MN/m]")
-    for axis in (upper.xaxis, upper.yaxis):
-        log_numbers(axis)
+    log_axis(upper)
+    log_axis(upper, upright=True)
     _mark_hunting(result, upper, lower)
     for panel in (upper, lower):
         panel.grid()

@@ -139,6 +139,8 @@ class _Places:
         box = Bbox([middle - half, middle + half])
         x0, y0, x1, y1 = self.room
         outside = max(0.0, x0 - box.x0, box.x1 - x1, y0 - box.y0, box.y1 - y1)
+        if 1e3 * outside >= most:
+            return float(1e3 * outside)
         leader = np.linspace(anchor, _nearest(box, anchor), 30)
         on_texts = sum(box.overlaps(other) for other in self.taken)
         through = sum(other.count_contains(leader) > 0 for other in self.taken)

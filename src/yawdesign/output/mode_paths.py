@@ -58,7 +58,7 @@ class Paths:
     @property
     def values(self) -> Float:
         """The parameter in that unit."""
-        return np.array([self.in_unit(value) for value in self.result.values])
+        return np.asarray(self.result.values * self.in_unit(1.0))
 
     @property
     def label(self) -> str:

@@ -61,6 +61,8 @@ def _over_parameter(paths: Paths, ax: "Axes", of: str, target: float | None) -> 
     curves = result.frequency if is_frequency else 100 * result.damping_ratio
     curves = np.where(result.frequency > 0, curves, np.nan)
     waving = [k for k in paths.shown if np.any(result.frequency[:, k] > 0)]
+    if not waving:
+        raise ProblemError(f"no mode that is drawn oscillates: {', '.join(map(paths.name, paths.shown))}")
     for k in waving:
         ax.plot(paths.values, curves[:, k], label="_", **paths.look(k))
     ax.set(xlabel=paths.label, xlim=(min(paths.values), max(paths.values)))

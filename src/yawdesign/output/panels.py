@@ -39,12 +39,3 @@ def grid_in(ax: "Axes", rows: Sequence[float], columns: Sequence[float]) -> Any:
     grid = place.subgridspec(len(rows), len(columns), height_ratios=rows, width_ratios=columns)
     ax.set_subplotspec(grid[0, 0])
     return grid
-
-
-def log_numbers(axis: Any) -> None:
-    """Write 1, 2 and 5 times the powers of ten beside a logarithmic axis."""
-    from matplotlib.ticker import LogLocator, NullFormatter
-
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axis.set_major_formatter("{x:g}")
-    axis.set_minor_formatter(NullFormatter())

@@ -2,7 +2,6 @@
 
 import io
 import re
-import textwrap
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -20,12 +19,13 @@ from yawdesign.problem.whole_files import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
 
 PICTURES = (".png", ".pdf", ".svg")
 ANIMATIONS = (".gif", ".svg")
 WRITTEN_BY = {".png": "agg", ".gif": "agg", ".pdf": "pdf", ".svg": "svg"}  # backends of Matplotlib
 DOTS_PER_INCH = 150
-LINE = 74  # signs of a title that fit into one line of a picture of the usual width
+BLANK = "\u00a0"  # at which no line ends
 SIGN, SMALL_SIGN, MARGIN = 6.0, 5.1, 62.0  # width of a sign, of one of a legend, of what stands left of the axes [pt]
 HANDLE, MOST_COLUMNS = 42.0, 4  # width of a mark of a legend with the spaces beside it [pt]; columns side by side
 WIDEST = 200.0  # ratio up to which a logarithmic axis has numbers between the powers of ten
@@ -67,19 +67,14 @@ def quantity(name: str, value: float, digits: int = 4) -> str:
     return f"${row.symbol}$ = {format_quantity(value, row.unit, digits)}"
 
 
-def put_title(ax: "Axes", title: str, condition: Mapping[str, Any] | None = None) -> None:
+def put_title(ax: "Axes", title: str, condition: Mapping[str, Any] | None = None, *, left: float = MARGIN) -> None:
     """Set a title above the left end of some axes, with the condition of a result below, in lines that fit."""
-    set_title(ax, title if condition is None else with_condition(title, condition))
+    set_title(ax, title if condition is None else with_condition(title, condition), left=left)
 
 
 def with_condition(title: str, condition: Mapping[str, Any]) -> str:
     """Return a title with the condition of a result in a line below, unless its values are as written."""
     return "\n".join(filter(None, (title, literal(other_condition_in_words(condition)))))
-
-
-def under_conditions(title: str, conditions: str, line: int = LINE) -> str:
-    """Return a title that says under which conditions it holds, in lines that fit into a picture."""
-    return textwrap.fill(f"{title}, under {literal(conditions)}", line)
 
 
 def set_title(ax: "Axes", title: str, conditions: str = "", *, left: float = MARGIN, pad: float | None = None) -> None:
@@ -97,7 +92,9 @@ def set_title(ax: "Axes", title: str, conditions: str = "", *, left: float = MAR
         How far above the axes it stands [pt].
     """
     text = f"{title}, under {literal(conditions)}" if conditions else title
-    ax.set_title(wrapped(text, max(20, int((_room(ax) - left) / SIGN))), loc="left", fontsize="medium", pad=pad)
+    together = re.sub(r"(?<=[\d=]) (?=[\w%])|(?<=\$) (?==)", BLANK, text)  # no line ends before a unit
+    lines = wrapped(together, max(20, int((_room(ax) - left) / SIGN))).replace(BLANK, " ")
+    ax.set_title(lines, loc="left", fontsize="medium", pad=pad)
 
 
 def wrapped(text: str, signs: int) -> str:
@@ -144,7 +141,7 @@ def _room(ax: "Axes") -> float:
     return float(72.0 * figure.get_figwidth() * min(1.0, width / (pars.right - pars.left)))
 
 
-def legend_below(ax: "Axes", handles: "list[Any] | None" = None) -> None:
+def legend_below(ax: "Axes", handles: "list[Any] | None" = None, *, left: float = MARGIN) -> None:
     """Explain a picture below it, where it covers nothing, in as many columns as fit.
 
     Parameters
@@ -153,6 +150,8 @@ def legend_below(ax: "Axes", handles: "list[Any] | None" = None) -> None:
         With its labels already set.
     handles : list, optional
         What is explained; what has a label, if not given.
+    left : float
+        How much room what stands left of the axes takes [pt].
     """
     from matplotlib.transforms import ScaledTranslation
 
@@ -167,7 +166,7 @@ def legend_below(ax: "Axes", handles: "list[Any] | None" = None) -> None:
         loc="upper left",
         bbox_to_anchor=(0.0, 0.0),
         bbox_transform=place,
-        ncols=_columns([len(_seen(str(handle.get_label()))) for handle in handles], _room(ax) - MARGIN),
+        ncols=_columns([len(_seen(str(handle.get_label()))) for handle in handles], _room(ax) - left),
         borderaxespad=0.0,
         columnspacing=1.6,
         handlelength=2.4,
@@ -186,12 +185,16 @@ def _columns(signs: list[int], room: float) -> int:
 
 def log_axis(ax: "Axes", *, upright: bool = False) -> None:
     """Give an axis, its limits set, a logarithmic scale with numbers that people read: 10, 20, 50, 100, 1 000."""
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-
     (ax.set_yscale if upright else ax.set_xscale)("log")
     axis = ax.yaxis if upright else ax.xaxis
     low, high = sorted(axis.get_view_interval())
-    few = high < WIDEST * low
+    log_numbers(axis, few=high < WIDEST * low)
+
+
+def log_numbers(axis: "Axis", *, few: bool) -> None:
+    """Write numbers that people read beside a logarithmic axis, in few decades more of them."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.6g}".replace(",", " ")))
     axis.set_minor_locator(LogLocator(subs=tuple(range(1, 10))))

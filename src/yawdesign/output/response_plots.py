@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from yawdesign.output.panels import divided, log_numbers
-from yawdesign.output.pictures import legend_below, literal, new_axes, put_title, quantity
+from yawdesign.output.panels import divided
+from yawdesign.output.pictures import legend_below, literal, log_axis, log_numbers, new_axes, put_title, quantity
 from yawdesign.output.response_words import body_name
 from yawdesign.output.style import line_of
 from yawdesign.problem import ProblemError, format_quantity
@@ -47,7 +47,7 @@ def frequency_response(result: "FrequencyResponse", ax: "Axes | None" = None) ->
         panel.grid()
     upper, lower = panels
     lower.set_xlim(float(np.min(result.frequency)), float(np.max(result.frequency)))
-    log_numbers(lower.xaxis)
+    log_axis(lower)
     lower.set_xlabel("frequency [Hz]")
     _add_wavelengths(upper, result.speed)
     title = f"Answer to a harmonic track at {format_quantity(result.speed, 'km/h', 4)}, {quantity('C_s', result.C_s)}"
@@ -64,7 +64,7 @@ def _add_wavelengths(ax: "Axes", speed: float) -> None:
 
     above = ax.secondary_xaxis("top", functions=(other, other))
     above.set_xlabel("wavelength of the track [m]")
-    log_numbers(above.xaxis)
+    log_numbers(above.xaxis, few=True)
 
 
 def spectrum_check(result: "SpectrumCheck", ax: "Axes | None" = None) -> "Axes":
@@ -85,7 +85,7 @@ def spectrum_check(result: "SpectrumCheck", ax: "Axes | None" = None) -> "Axes":
         ax.loglog(result.wavenumber, values, label=f"{text}: {factor * rms:.3f} {unit} RMS", **look)
     ax.set(xlabel="wavenumber [rad/m]", ylabel=f"density of {what} [{density}/(rad/m)]")
     ax.margins(x=0)
-    log_numbers(ax.xaxis)
+    log_axis(ax)
     ax.grid()
     put_title(ax, f"Spectrum of a synthesised track: {what}, {literal(result.track)}")
     legend_below(ax)

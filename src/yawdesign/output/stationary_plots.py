@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from yawdesign.response.run.stationary import StationaryResponse
 
 LINE, OF_REST = 0.18, 2.4  # heights of a bar, and of axes, title and legend [inch]
+OF_LETTER = 5.0  # width of a letter of the names [points]
 PANELS = ("lateral displacement", "yaw", "lateral acceleration", "force")
 UNITS = {"lateral displacement": "m", "yaw": "rad", "lateral acceleration": "m/s^2", "force": "N"}
 OF_INPUT = {"alignment": ("o", SERIES[1]), "cross_level": ("D", SERIES[2])}
@@ -43,10 +44,11 @@ def draw_stationary(result: "StationaryResponse", ax: "Axes | None" = None) -> "
     for panel, (what, names) in zip((first, *others), groups.items(), strict=True):
         _bars(panel, result, what, names, moved if what == PANELS[1] else names)
     others[0].tick_params(axis="y", labelleft=False)
+    left = OF_LETTER * max(len(_short(x, what)) for what, names in groups.items() for x in names)
     at = f"{format_quantity(result.speed, 'km/h', 4)}, {quantity('C_s', result.C_s)}"
-    put_title(first, f"Stationary motion on {literal(result.track)}, {result.band}, {at}", result.condition)
+    put_title(first, f"Stationary motion on {literal(result.track)}, {result.band}, {at}", result.condition, left=left)
     handles, _ = first.get_legend_handles_labels()
-    legend_below(others[-1], handles=[handles[-1], *handles[:-1]])
+    legend_below(others[-1], handles=[handles[-1], *handles[:-1]], left=left)
     return first
 
 
