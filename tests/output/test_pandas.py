@@ -8,6 +8,7 @@ import pytest
 import yawdesign as yd
 
 FIRST = {
+    "Reproduction": "rows",
     "Stability": "modes",
     "CriticalSpeeds": "critical_speeds",
     "ForwardDesign": "critical",

@@ -34,7 +34,8 @@ def result_sheets(result: Any, tables: Mapping[str, Mapping[str, Any]], own: Map
         SI units of columns that mean something else elsewhere.
     """
     known = {**UNITS, **SPEEDS, **_of_margin(result), **own}
-    rows = [(name, values[0], _unit(name, known)) for name, values in only_row(result).items()]
+    told, entries = only_row(result).items(), result.to_dict().keys()  # what is drawn is no entry
+    rows = [(name, x[0], _unit(name, known)) for name, x in told if name.partition(".")[0] in entries]
     sheets = {SUMMARY: SheetRows(("what", "value", "unit"), rows)}
     for name, columns in tables.items():
         heads = [f"{head} [{unit}]" if (unit := _unit(head, known)) else head for head in columns]
