@@ -9,7 +9,7 @@ from blocks import prepare, run
 
 DOCS = Path(__file__).parent
 SCRIPTS = ("examples/figures.py", "examples/sweeps.py", "docs/figures/rooms.py", "docs/figures/trade_off.py")
-PAGES = ("first-design.md", "gallery.md", "modes.md")  # whose own lines draw what they show
+PAGES = ("first-design.md", "gallery.md")  # whose own lines draw what they show
 
 
 def draw_page(page: Path) -> None:

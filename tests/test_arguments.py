@@ -72,7 +72,7 @@ def right(tmp_path_factory):
     return lambda name: {
         "problem": {"choose": choosing, "uncertainty": uncertain}.get(name, problem),
         "result": modes,
-        "to": folder / f"{next(numbers)}.svg",
+        "to": folder / f"{next(numbers)}{'.html' if name == 'report' else '.svg'}",
         "path": folder / f"{next(numbers)}.fmu",
         "text": "{bogie: {base: table1}, speed: 250 km/h}",
         "progress": enough,

@@ -164,5 +164,10 @@ def test_creep_coefficients_take_the_place_of_creep(changed):
     )
 
 
+def test_a_part_without_what_is_removed_from_it(changed):
+    assert changed("bogie.creep=null", of=CREEP).bogie.f_11 == 11511e3
+    assert "bogie.M_b: is missing" in " ".join(changed("bogie.base=null", of=CREEP))
+
+
 def test_a_name_twice(changed):
     assert changed("lambda=0.2", "bogie.lambda=0.3") == ["--set bogie.lambda=0.3: bogie.lambda is given twice"]

@@ -168,6 +168,19 @@ def test_choose(answered, file, spectrum):
 
 
 @pytest.mark.slow
+def test_report(answered, file, tmp_path, spectrum):
+    data = json.loads(file.read_text(encoding="utf-8"))
+    data |= {"curve": None, "design": {"variables": {"C_s": {"min": 2e5, "max": 4e6}}}}
+    file.write_text(json.dumps({key: value for key, value in data.items() if value is not None}), encoding="utf-8")
+    best = answered("optimise", codes=(0, 1))
+    answered("report", "--to", str(tmp_path / "page.html"), codes=(0, 1), plain=True)
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert f"{best['margin']:.6g} 1/s" in page
+    s = spectrum(C_s=best["C_s"])
+    assert min(abs(s.real + best["margin"])) < 1e-6
+
+
+@pytest.mark.slow
 def test_trade_off(answered, spectrum):
     front = answered("trade-off", "--points", "2", codes=(0, 1))["front"]
     for point in front:
@@ -222,15 +235,15 @@ def test_export(answered, independent, problem, tmp_path):
 
 
 @pytest.mark.slow
-def test_reproduce(spectrum, kind, tmp_path):
+def test_reproduce(independent, tmp_path):
     """It has no problem file: it is about Table I, whose boundary of stability is that of the independent matrix."""
-    if kind != "power":
-        pytest.skip("the paper has no such vehicle")
     done = CliRunner().invoke(app, ["reproduce", "--to", str(tmp_path / "paper"), "--json"])
     assert done.exit_code == 0, done.output
     rows = [x for x in json.loads(done.stdout)["rows"] if x["what"].startswith("C_sl, ")]
     (C_sl,) = [x["computed"] for x in rows if x["equations"] == "reciprocal"]
-    assert abs(spectrum(C_s=C_sl).real.max()) < 1e-6
+    p = {**{name: float(x) for name, x in yd.table1().parameters().items()}, "v": 300 / 3.6, "C_s": C_sl}
+    s = np.linalg.eigvals(np.array(independent.equations("power", p).state_matrix(), dtype=float))
+    assert abs(s.real.max()) < 1e-6
     assert (tmp_path / "paper" / "reproduction.html").is_file()
     changed = CliRunner().invoke(app, ["reproduce", "--set", "M_b=7300 kg"])
     assert changed.exit_code == 1, changed.output

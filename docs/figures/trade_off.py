@@ -3,10 +3,11 @@
 from pathlib import Path
 
 import yawdesign as yd
-from yawdesign.output.pictures import write_picture
+from yawdesign.output.pictures import own_texts
 
 CONDITIONS = {"lambda": [0.05, 0.10, 0.15, 0.25, 0.40], "creep_factor": [1, 0.7, 0.5]}
 
 if __name__ == "__main__":
     front = yd.trade_off(yd.table1().replace(conditions=CONDITIONS), points=12)
-    write_picture(yd.plot(front), Path(__file__).with_name("trade-off.png"), replace=True)
+    with own_texts():
+        yd.plot(front).figure.savefig(Path(__file__).with_name("trade-off.png"), dpi=100)

@@ -9,6 +9,7 @@ import pytest
 import yawdesign as yd
 from yawdesign.damper.decision import decide
 from yawdesign.damper.status import Status
+from yawdesign.output.tables import design_tables, rendered
 
 CASES = json.loads((Path(__file__).parents[1] / "data" / "cases.json").read_text())["cases"]
 
@@ -187,3 +188,10 @@ def test_a_damper_with_hardly_any_damping_is_no_obstacle(C_m):
     verdict = yd.stability(problem.replace(C_s=result.C_s))
     assert verdict.checked
     assert verdict.stable
+
+
+def test_no_negative_damping_is_printed_where_the_springs_alone_exceed_the_limit():
+    found = yd.design(yd.table1().replace(limit=0.01))
+    assert found.C_su < 0
+    text = " ".join(rendered(design_tables(found)).split())
+    assert "none: K_2x and C_t alone exceed" in text

@@ -8,6 +8,7 @@ import pytest
 import yawdesign as yd
 
 FIRST = {
+    "Reproduction": "rows",
     "Stability": "modes",
     "CriticalSpeeds": "critical_speeds",
     "ForwardDesign": "critical",
@@ -22,6 +23,7 @@ FIRST = {
     "StationaryResponse": "rms",
     "SpectrumCheck": "densities",
     "Modes": "modes",
+    "Reproduction": "rows",
     "FollowedModes": "modes",
 }
 

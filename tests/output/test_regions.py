@@ -54,3 +54,9 @@ def test_an_island_and_a_whole_grid():
     assert size(found.outline(0)) == pytest.approx(0.5)
     assert size(found.outline(1)) == pytest.approx(3.5)
     assert size(regions([[1, 1], [1, 1]]).outline(1)) == pytest.approx(1.0)
+
+
+def test_a_line_around_another_kind_can_be_left_out():
+    found = regions([[0, 1, 2], [0, 1, 2]])
+    assert found.lines(1) == [[(0.5, 1.0), (0.5, 0.0)], [(1.5, 0.0), (1.5, 1.0)]]
+    assert found.lines(1, without=2) == [[(0.5, 1.0), (0.5, 0.0)]]

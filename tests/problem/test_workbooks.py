@@ -2,6 +2,7 @@
 
 import builtins
 import io
+import json
 import re
 import zipfile
 from pathlib import Path
@@ -14,7 +15,7 @@ import yawdesign as yd
 from yawdesign.cli import app
 from yawdesign.problem import read, workbook
 from yawdesign.problem.problem_sheet import SHEET, path_of
-from yawdesign.problem.workbook_writing import Sheet, cell_text, write_workbook
+from yawdesign.problem.workbook_writing import SheetRows, cell_text, write_workbook
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
 
@@ -145,7 +146,7 @@ def test_lists_and_shares(tmp_path):
         *(("conditions.W", "[150, 190]", "kN"), ("cases.lost.C_s", 0.5, None), ("#", "a remark", None)),
     ]
     path = tmp_path / "problem.xlsx"
-    write_workbook(path, {SHEET: Sheet(("key", "value", "unit"), rows), "notes": Sheet(("x",), [])})
+    write_workbook(path, {SHEET: SheetRows(("key", "value", "unit"), rows), "notes": SheetRows(("x",), [])})
     book = openpyxl.load_workbook(path)
     book[SHEET]["B6"].number_format = "0 %"
     save(book, path)
@@ -177,12 +178,12 @@ def test_no_workbooks(tmp_path):
         archive.writestr("x.xml", "<x/>")
     with pytest.raises(yd.ProblemError, match="is no workbook"):
         yd.load(path)
-    write_workbook(tmp_path / "other.xlsx", {"values": Sheet(("key", "value"), [])})
+    write_workbook(tmp_path / "other.xlsx", {"values": SheetRows(("key", "value"), [])})
     with pytest.raises(yd.ProblemError, match="has no sheet problem; it has values"):
         yd.load(tmp_path / "other.xlsx")
     with pytest.raises(yd.ProblemError, match="No such file"):
         yd.load(tmp_path / "none.xlsx")
-    write_workbook(tmp_path / "headless.xlsx", {"problem": Sheet(("a", "b"), [("x", 1)])})
+    write_workbook(tmp_path / "headless.xlsx", {"problem": SheetRows(("a", "b"), [("x", 1)])})
     with pytest.raises(yd.ProblemError, match="the column key and the column value is missing"):
         yd.load(tmp_path / "headless.xlsx")
 
@@ -196,7 +197,7 @@ def test_sizes_are_bounded_before_the_work(table1, tmp_path, monkeypatch):
         archive.writestr("xl/workbook.xml", b'<!DOCTYPE x [<!ENTITY a "b">]><x>&a;</x>')
     with pytest.raises(yd.ProblemError, match="document type"):
         yd.load(tmp_path / "entities.xlsx")
-    write_workbook(tmp_path / "long.xlsx", {"problem": Sheet(("key", "value"), [("title", "x")] * 2_001)})
+    write_workbook(tmp_path / "long.xlsx", {"problem": SheetRows(("key", "value"), [("title", "x")] * 2_001)})
     with pytest.raises(yd.ProblemError, match="more than 2000 rows"):
         yd.load(tmp_path / "long.xlsx")
     monkeypatch.setattr(workbook, "MOST_BYTES", 1_000)
@@ -249,7 +250,7 @@ def test_a_catalogue_as_workbook(tmp_path):
 def test_mistakes_in_a_catalogue_have_their_cells(rows, message, tmp_path):
     path = tmp_path / "x.xlsx"
     heads = ("name", "damping [kN s/m]", "stiffness [MN/m]")
-    write_workbook(path, {"dampers": Sheet(heads, rows), "notes": Sheet(("a",), [])})
+    write_workbook(path, {"dampers": SheetRows(heads, rows), "notes": SheetRows(("a",), [])})
     with pytest.raises(yd.ProblemError) as error:
         yd.read_catalogue(path)
     assert message in str(error.value)
@@ -276,6 +277,15 @@ def test_files_are_not_replaced_unasked(table1, tmp_path):
     yd.table1().to_excel(table1, replace=True)
     with pytest.raises(yd.ProblemError, match=r"must end in \.xlsx"):
         yd.table1().to_excel(tmp_path / "problem.xls")
+
+
+def test_mistakes_as_json_have_their_cells(changed, table1):
+    changed(bogie_K_ds={"value": -1})
+    done = CliRunner().invoke(app, ["check", str(table1), "--json"])
+    assert done.exit_code == 2
+    (mistake,) = json.loads(done.stdout)["errors"]
+    assert (mistake["cell"], mistake["key"]) == ("problem!B18", "bogie.K_ds")
+    assert "line" not in mistake
 
 
 def test_a_change_is_told_by_its_option(table1):

@@ -1,5 +1,8 @@
 """A problem goes to a dictionary and to a file and comes back: the same, with the decimals it was written with."""
 
+import copy
+import functools
+import random
 import warnings
 from pathlib import Path
 
@@ -253,3 +256,35 @@ def test_a_parameter_that_the_preset_lacks_is_named(monkeypatch):
     monkeypatch.setattr("yawdesign.problem.paper_example.preset_bogie", lambda name, kind: without)
     with pytest.raises(ProblemError, match=r"bogie\.M_b: is missing: mass of the bogie frame"):
         yd.table1()
+
+
+WRONG = (None, 3, "", [], {}, {"a": 1}, [1, 2], True, float("nan"), object(), {3: 4}, [None], "rigid", {"min": None})
+
+
+def test_wrong_data_end_in_a_list_of_mistakes():
+    base = table1_conditions().to_dict()
+    chance = random.Random(7)
+
+    def places(data, around=()):
+        for key, value in data.items() if isinstance(data, dict) else ():
+            yield (*around, key)
+            yield from places(value, (*around, key))
+
+    every, wrong = sorted(places(base)), 0
+    for _ in range(100):
+        data = copy.deepcopy(base)
+        *around, key = chance.choice(every)
+        part = functools.reduce(dict.__getitem__, around, data)
+        part[chance.choice([key, key, 3, "axles"])] = chance.choice(WRONG)
+        try:
+            Problem.from_dict(data)
+        except ProblemError as error:
+            wrong += bool(str(error))
+    assert wrong > 50
+    for data in (None, 3, [], "bogie"):
+        with pytest.raises(ProblemError, match="a mapping"):
+            Problem.from_dict(data)
+
+
+def table1_conditions():
+    return load(next(path for path in FILES if path.stem == "table1-conditions"))

@@ -6,8 +6,10 @@ import pytest
 
 import yawdesign as yd
 from yawdesign.problem.damper_catalogue import CatalogueDamper
+from yawdesign.study import design_review as design_reviews
 from yawdesign.study.design_review import design_review, designed, each_condition
 from yawdesign.study.review_axes import conicities, creep_factors, dampings, mount, mounts, speeds
+from yawdesign.study.sweep import IncompleteSweepError
 
 VARIABLES = {"C_s": yd.Variable(min="100 kN s/m", max="3 MN s/m")}
 
@@ -97,6 +99,15 @@ def test_no_damping_at_all_is_refused_before_work(problem):
     design = yd.Design(variables={"K_1x": yd.Variable(min=1e7, max=1e8)})
     with pytest.raises(yd.ProblemError, match="C_s is missing"):
         design_review(problem.replace(C_s=None, design=design))
+
+
+def test_a_request_to_stop_ends_it_as_one(problem, monkeypatch):
+    def stopped(*_, **__):
+        raise IncompleteSweepError("stopped", "", None, True) from KeyboardInterrupt()
+
+    monkeypatch.setattr(design_reviews, "swept", stopped)
+    with pytest.raises(KeyboardInterrupt):
+        design_review(problem)
 
 
 def test_axes_hold_what_matters():

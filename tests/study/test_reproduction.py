@@ -5,6 +5,7 @@ import math
 from dataclasses import replace
 
 import numpy as np
+import openpyxl
 import pytest
 
 import yawdesign as yd
@@ -249,3 +250,11 @@ def test_the_printed_ratio_is_that_of_the_printed_values(reproduced):
     assert {round(row.printed, 2) for row in rows} == {10.27, 9.99}
     assert all(math.isfinite(row.printed) for row in rows)
     assert np.isclose(2.895 / 0.282, 10.27, atol=0.005)
+
+
+def test_rows_as_a_workbook(reproduced, tmp_path):
+    reproduced.to_excel(tmp_path / "paper.xlsx")
+    book = openpyxl.load_workbook(tmp_path / "paper.xlsx")
+    assert book.sheetnames == ["summary", "rows", "provenance"]
+    assert book["rows"].max_row == 1 + len(reproduced.rows)
+    assert [row[0] for row in book["summary"].iter_rows(values_only=True)] == ["what", "agrees", "checked", "version"]

@@ -2,7 +2,6 @@
 
 import io
 import re
-import textwrap
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -26,7 +25,6 @@ PICTURES = (".png", ".pdf", ".svg")
 ANIMATIONS = (".gif", ".svg")
 WRITTEN_BY = {".png": "agg", ".gif": "agg", ".pdf": "pdf", ".svg": "svg"}  # backends of Matplotlib
 DOTS_PER_INCH = 150
-LINE = 74  # signs of a title that fit into one line of a picture of the usual width
 BLANK = "\u00a0"  # at which no line ends
 SIGN, SMALL_SIGN, MARGIN = 6.0, 5.1, 62.0  # width of a sign, of one of a legend, of what stands left of the axes [pt]
 HANDLE, MOST_COLUMNS = 42.0, 4  # width of a mark of a legend with the spaces beside it [pt]; columns side by side
@@ -77,11 +75,6 @@ def put_title(ax: "Axes", title: str, condition: Mapping[str, Any] | None = None
 def with_condition(title: str, condition: Mapping[str, Any]) -> str:
     """Return a title with the condition of a result in a line below, unless its values are as written."""
     return "\n".join(filter(None, (title, literal(other_condition_in_words(condition)))))
-
-
-def under_conditions(title: str, conditions: str, line: int = LINE) -> str:
-    """Return a title that says under which conditions it holds, in lines that fit into a picture."""
-    return textwrap.fill(f"{title}, under {literal(conditions)}", line)
 
 
 def set_title(ax: "Axes", title: str, conditions: str = "", *, left: float = MARGIN, pad: float | None = None) -> None:

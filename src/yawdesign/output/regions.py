@@ -40,28 +40,28 @@ class Regions:
         self.x, self.y, self.kinds = x, y, kinds
         self.across = np.where(np.isfinite(across), across, (x[:-1] + x[1:]) / 2)
         self.upright = np.where(np.isfinite(upright), upright, ((y[:-1] + y[1:]) / 2)[:, None])
-        self.inside: dict[int, list[Line]] = {}
-        for kind, line in self._lines_inside():
-            self.inside.setdefault(kind, []).append(line)
+        self.inside: dict[int, list[tuple[Line, frozenset[int]]]] = {}  # with what else there is in the cell
+        for kind, line, beside in self._lines_inside():
+            self.inside.setdefault(kind, []).append((line, beside))
 
     def found(self) -> list[int]:
         """Return the kinds that there are, the smallest number first."""
         return [int(kind) for kind in np.unique(self.kinds)]
 
-    def lines(self, kind: int) -> list[Line]:
-        """Return the lines that bound what is of one kind, without the frame of the picture."""
-        return chained(self.inside.get(kind, []))
+    def lines(self, kind: int, without: int | None = None) -> list[Line]:
+        """Return the lines that bound what is of one kind, without the frame of the picture and one other kind."""
+        return chained([line for line, beside in self.inside.get(kind, []) if without not in beside])
 
     def outline(self, kind: int) -> "Path":
         """Return the area of one kind as one path, to be filled."""
         from matplotlib.path import Path
 
         frame = [line for mine, line in self._frame() if mine == kind]
-        return Path.make_compound_path(*(Path(np.array([*loop, loop[0]]), closed=True) for loop in
-                                         chained(self.inside.get(kind, []) + frame)))  # fmt: skip
+        loops = chained([*(line for line, _ in self.inside.get(kind, [])), *frame])
+        return Path.make_compound_path(*(Path(np.array([*loop, loop[0]]), closed=True) for loop in loops))
 
-    def _lines_inside(self) -> Iterator[tuple[int, Line]]:
-        """Yield the pieces inside the cells whose corners differ, each with the kind on its left."""
+    def _lines_inside(self) -> Iterator[tuple[int, Line, frozenset[int]]]:
+        """Yield the pieces inside the cells whose corners differ, with the kind on their left and the others."""
         k = self.kinds
         mixed = (k[:-1, :-1] != k[:-1, 1:]) | (k[1:, :-1] != k[1:, 1:]) | (k[:-1, :-1] != k[1:, :-1])
         for j, i in zip(*np.nonzero(mixed), strict=True):
@@ -76,7 +76,8 @@ class Regions:
             places = [(float(sides[n][0]), float(sides[n][1])) for n in changes]
             middle = [tuple(np.mean(places, axis=0).tolist())] if len(places) >= FEWEST_JOINED else []
             for before, (n, here) in zip([places[-1], *places], zip(changes, places, strict=True), strict=False):
-                yield int(corners[n]), [here, *middle, before]
+                beside = frozenset(int(kind) for kind in corners if kind != corners[n])
+                yield int(corners[n]), [here, *middle, before], beside
 
     def _frame(self) -> Iterator[tuple[int, Line]]:
         """Yield the pieces of the frame, counterclockwise, each with its kind."""

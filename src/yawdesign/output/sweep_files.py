@@ -148,7 +148,7 @@ class Outputs:
     def _places(self) -> Iterator[Path]:
         if self.resume is not None:
             yield self.resume
-        stem = f"{Path(self.problem_file).stem}.sweep"
+        stem = f"{'problem' if self.problem_file == '-' else Path(self.problem_file).stem}.sweep"
         for k in range(1, MOST_KEPT):
             yield Path(f"{stem}.npz" if k == 1 else f"{stem}-{k}.npz")
         try:

@@ -128,10 +128,11 @@ def _areas(drawn: _Map, ax: "Axes") -> list[Any]:
     for kind in filled:
         colour, text = looks[kind]
         ax.add_patch(PathPatch(regions.outline(kind), zorder=AREAS, **area(colour)))
-        handles.append(Patch(label=text, **{**area(colour), "linewidth": 0.5}))
+        handles.append(Patch(label=text, **area(colour)))
     bounding = next((kind for kind in (chart.STABLE, chart.ALWAYS, chart.VALUE) if kind in regions.inside), None)
-    if bounding is not None:
-        lines = LineCollection(regions.lines(bounding), zorder=LINES, **_as_collection(BOUNDARY))
+    bounds = [] if bounding is None else regions.lines(bounding, chart.UNKNOWN)
+    if bounds:
+        lines = LineCollection(bounds, zorder=LINES, **_as_collection(BOUNDARY))
         lines.set_label("boundary of stability" if bounding == chart.STABLE else "boundary")
         ax.add_collection(lines)
         if bounding == chart.STABLE:

@@ -66,7 +66,11 @@ class Diagnostic:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data that JSON can hold: its place, file included, and what it says."""
-        place = {"file": self.path or None, "line": self.line, "column": self.column, "length": self.length}
+        place: dict[str, Any] = {"file": self.path or None}
+        if self.cell:
+            place |= {"cell": self.cell}
+        else:
+            place |= {"line": self.line, "column": self.column, "length": self.length}
         return {**place, "key": self.key, "message": self.message, "source_line": self.source_line}
 
     def _underlined(self) -> str:

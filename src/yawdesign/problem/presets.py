@@ -45,14 +45,15 @@ def with_presets(data: Mapping[str, Any]) -> tuple[dict[str, Any], frozenset[str
         given = data.get(part)
         if not isinstance(given, dict):
             continue
-        if "base" not in given:
+        kept = {key: value for key, value in given.items() if value is not REMOVED}
+        if "base" not in kept:
             continue
-        base = given["base"]
+        base = kept["base"]
         if base not in names:
             complete.remove(part)
             continue
         values = preset_bogie(base, kind_of_bogie(data)) if part == "bogie" else preset_car_body(base)
-        filled[part] = {key: x for key, x in values.items() if key not in MADE or "creep" not in given} | given
+        filled[part] = {key: x for key, x in values.items() if key not in MADE or "creep" not in kept} | given
     return without_removed(filled), frozenset(complete)
 
 

@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Self, get_args
 
-from .arguments import named
+from .arguments import named, refused
 from .bare_speeds import warn_of_bare_speeds
 from .cases import Case, as_cases
 from .catalogue_file import with_named_catalogue
@@ -30,7 +30,7 @@ from .variables import Design, default_variables
 from .whole_files import write_whole
 from .workbook_writing import write_workbook
 from .written_conditions import as_conditions
-from .written_problem import in_plain_numbers, written
+from .written_problem import in_plain_numbers, with_text_keys, written
 
 
 @named
@@ -105,12 +105,14 @@ class Problem(NotebookView):
         >>> Problem.from_dict({"bogie": {"base": "table1"}, "speed": "250 km/h"}).bogie.K_m
         626480.0
         """
+        if not isinstance(data, Mapping):
+            raise refused("data", "a mapping, such as `to_dict` returns", data)
         return cls._of(ChangedData({key: value for key, value in data.items() if value is not None}), whole=False)
 
     @classmethod
     def _of(cls, new: ChangedData, *, whole: bool) -> Self:
         """Return the problem that changed data describe; a bare speed is doubted, a `whole` number too."""
-        data = with_named_catalogue(new.data)
+        data = with_named_catalogue(with_text_keys(new.data))
         checked = checked_data(data)
         mistakes = [*new.mistakes, *(each.diagnostic for each in dict.fromkeys(checked.faults))]
         if mistakes:
@@ -252,7 +254,11 @@ class Problem(NotebookView):
         >>> problem.replace({"design.variables.C_s.max": "2 MN s/m"}).design.variables["C_s"].max
         2000000.0
         """
-        values = [NewValue(name, written(value), key_of(name)) for name, value in {**(changes or {}), **more}.items()]
+        if not isinstance(changes, Mapping | None):
+            raise refused("changes", "a mapping of names to values", changes)
+        values = [
+            NewValue(str(name), written(value), key_of(name)) for name, value in {**(changes or {}), **more}.items()
+        ]
         new = changed({key: value for key, value in self._written.items() if value is not None}, values)
         return self._of(new, whole=True)
 

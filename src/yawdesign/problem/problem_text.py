@@ -14,6 +14,7 @@ from .condition import CREEP_FACTOR
 from .damper_catalogue import QUANTITIES
 from .diagnostics import ProblemError
 from .document import compose
+from .faults import TOP
 from .parameters import BOGIE, CAR_BODY, PARAMETERS
 from .quantities import decimal_text
 from .requirements import MEASURES
@@ -21,10 +22,6 @@ from .running import CURVE, SPEED
 from .table import Parameter
 
 FIRST_LINE = "# yaml-language-server: $schema=problem.schema.json"
-_ORDER = (
-    *("title", "equations", "bogie", "car_body", "speed", "curve", "conditions", "cases", "requirements", "design"),
-    "uncertainty",
-)
 _WIDTH = 200
 _COMMENTS_AT = 30  # column
 
@@ -49,7 +46,7 @@ def problem_text(data: Mapping[str, Any]) -> str:
         If it is larger than a problem file may be.
     """
     parts = CommentedMap()
-    for key in _ORDER:
+    for key in TOP:
         if data.get(key):
             parts[key] = _PARTS[key](data[key])
     for key in [*parts][1:]:

@@ -15,7 +15,7 @@ from .problem_sheet import HEADS, SHEET, path_of
 from .quantities import split_quantity
 from .running import CURVE
 from .starter import starter
-from .workbook_writing import MOST_SIGNS, Sheet
+from .workbook_writing import MOST_SIGNS, SheetRows
 
 DIGITS = 16  # with which openpyxl writes a number
 MEANINGS = {
@@ -28,7 +28,7 @@ MEANINGS = {
 }
 
 
-def problem_sheets(text: str) -> dict[str, Sheet]:
+def problem_sheets(text: str) -> dict[str, SheetRows]:
     """Return the sheets of a problem that is given as the text of a problem file."""
     document = compose(text, SHEET)
     rows, dampers = [], Sequence(0, 0)
@@ -37,18 +37,18 @@ def problem_sheets(text: str) -> dict[str, Sheet]:
             dampers = node
         else:
             rows.append(_row(document, path, node))
-    sheets = {SHEET: Sheet(HEADS, rows)}
+    sheets = {SHEET: SheetRows(HEADS, rows)}
     return sheets | ({DAMPERS: _catalogue(dampers)} if dampers.items else {})
 
 
-def starter_sheets(kind: str, *, car_body: bool) -> dict[str, Sheet]:
+def starter_sheets(kind: str, *, car_body: bool) -> dict[str, SheetRows]:
     """Return the sheets of a problem to start from, in which what a bogie may have besides stands without values."""
     sheets = problem_sheets(starter(kind, car_body=car_body))
     rows = list(sheets[SHEET].rows)
     end = 1 + max(k for k, row in enumerate(rows) if row[0].startswith("bogie."))
     more = [BOGIE[key] for key in ADDED if not (car_body and key in VERTICAL)]
     rows[end:end] = [(f"bogie.{row.key}", None, row.unit, f"{row.meaning} (may be left empty)") for row in more]
-    return {**sheets, SHEET: Sheet(HEADS, rows)}
+    return {**sheets, SHEET: SheetRows(HEADS, rows)}
 
 
 def _leaves(node: Node, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Node]]:
@@ -103,12 +103,12 @@ def _value_and_unit(node: Scalar) -> tuple[Any, str | None]:
     return (int(nearest) if nearest.is_integer() and abs(nearest) < 1e15 else nearest), unit or None
 
 
-def _catalogue(dampers: Sequence) -> Sheet:
+def _catalogue(dampers: Sequence) -> SheetRows:
     """Return the sheet of the dampers, with the units of their columns in the heads."""
     names = [name for name in COLUMNS if any(isinstance(x, Mapping) and name in x.values for x in dampers.items)]
     heads = [f"{name} [{QUANTITIES[name].unit}]" if name in QUANTITIES else name for name in names]
     rows = [[_damper_cell(name, x.values.get(name)) for name in names] for x in dampers.items if isinstance(x, Mapping)]
-    return Sheet(heads, rows)
+    return SheetRows(heads, rows)
 
 
 def _damper_cell(name: str, node: Node | None) -> Any:

@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import Any
 
 from .data_frames import UNITS, only_row
-from .workbook_writing import Sheet
+from .workbook_writing import SheetRows
 
 SUMMARY, PROVENANCE = "summary", "provenance"
 SPEEDS = dict.fromkeys(("stable_up_to", "speed_wanted"), "m/s")
@@ -21,7 +21,7 @@ PLURALS = {
 }
 
 
-def result_sheets(result: Any, tables: Mapping[str, Mapping[str, Any]], own: Mapping[str, str]) -> dict[str, Sheet]:
+def result_sheets(result: Any, tables: Mapping[str, Mapping[str, Any]], own: Mapping[str, str]) -> dict[str, SheetRows]:
     """Return the sheets of a result.
 
     Parameters
@@ -34,14 +34,15 @@ def result_sheets(result: Any, tables: Mapping[str, Mapping[str, Any]], own: Map
         SI units of columns that mean something else elsewhere.
     """
     known = {**UNITS, **SPEEDS, **_of_margin(result), **own}
-    rows = [(name, values[0], _unit(name, known)) for name, values in only_row(result).items()]
-    sheets = {SUMMARY: Sheet(("what", "value", "unit"), rows)}
+    told, entries = only_row(result).items(), result.to_dict().keys()  # what is drawn is no entry
+    rows = [(name, x[0], _unit(name, known)) for name, x in told if name.partition(".")[0] in entries]
+    sheets = {SUMMARY: SheetRows(("what", "value", "unit"), rows)}
     for name, columns in tables.items():
         heads = [f"{head} [{unit}]" if (unit := _unit(head, known)) else head for head in columns]
         if values := [list(row) for row in zip(*columns.values(), strict=True)]:
-            sheets[name] = Sheet(heads, values)
+            sheets[name] = SheetRows(heads, values)
     sheets |= dict(_lists(result, known))
-    return sheets | {PROVENANCE: Sheet(("what", "value"), [*_provenance(result)])}
+    return sheets | {PROVENANCE: SheetRows(("what", "value"), [*_provenance(result)])}
 
 
 def _of_margin(result: Any) -> dict[str, str]:
@@ -50,7 +51,7 @@ def _of_margin(result: Any) -> dict[str, str]:
     return dict.fromkeys(("margin", "margin_before", "next_margin"), unit) if unit else {}
 
 
-def _lists(result: Any, known: Mapping[str, str]) -> Iterator[tuple[str, Sheet]]:
+def _lists(result: Any, known: Mapping[str, str]) -> Iterator[tuple[str, SheetRows]]:
     """Yield what a result has as plain lists: of numbers, of complex numbers, of intervals."""
     for field in fields(result):
         values = getattr(result, field.name)
@@ -60,7 +61,7 @@ def _lists(result: Any, known: Mapping[str, str]) -> Iterator[tuple[str, Sheet]]
         heads = {1: [field.name], 2: ["real", "imaginary"] if isinstance(values[0], complex) else ["from", "to"]}
         unit = _unit(PLURALS.get(field.name, field.name), known)
         names = heads.get(len(rows[0]), [str(k) for k in range(len(rows[0]))])
-        yield field.name, Sheet([f"{head} [{unit}]" if unit else head for head in names], rows)
+        yield field.name, SheetRows([f"{head} [{unit}]" if unit else head for head in names], rows)
 
 
 def _listed(value: Any) -> list[Any]:

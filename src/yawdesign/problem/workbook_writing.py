@@ -24,7 +24,7 @@ _NOT_IN_NAMES = re.compile(r"[\\/*?:\[\]]")
 
 
 @dataclass(frozen=True)
-class Sheet:
+class SheetRows:
     """A sheet to write.
 
     Parameters
@@ -39,14 +39,14 @@ class Sheet:
     rows: Sequence[Sequence[Any]]
 
 
-def write_workbook(path: str | PathLike[str], sheets: Mapping[str, Sheet], *, replace: bool = False) -> None:
+def write_workbook(path: str | PathLike[str], sheets: Mapping[str, SheetRows], *, replace: bool = False) -> None:
     """Write a workbook, as a whole or not at all.
 
     Parameters
     ----------
     path : path
         Its name ends in .xlsx.
-    sheets : mapping of str to Sheet
+    sheets : mapping of str to SheetRows
         By their names.
     replace : bool
         Whether it may take the place of another file.
@@ -68,7 +68,7 @@ def write_workbook(path: str | PathLike[str], sheets: Mapping[str, Sheet], *, re
     write_whole(Path(path), content.getvalue(), replace=replace)
 
 
-def _fill(page: Any, sheet: Sheet) -> None:
+def _fill(page: Any, sheet: SheetRows) -> None:
     from openpyxl.styles import Font
 
     for n, row in enumerate([sheet.heads, *sheet.rows], 1):

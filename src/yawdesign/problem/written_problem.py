@@ -77,3 +77,10 @@ def in_plain_numbers(data: Any) -> Any:
     if isinstance(data, (list, tuple)):
         return [in_plain_numbers(value) for value in data]
     return float(data) if isinstance(data, float) else data
+
+
+def with_text_keys(data: Any) -> Any:
+    """Return data in which every key is a text, as in a file."""
+    if isinstance(data, Mapping):
+        return {str(key): with_text_keys(value) for key, value in data.items()}
+    return [with_text_keys(value) for value in data] if isinstance(data, list) else data

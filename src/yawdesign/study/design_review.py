@@ -12,7 +12,7 @@ from yawdesign.damper.optimise import optimise
 from yawdesign.damper.optimum import Optimum
 from yawdesign.damper.pareto_front import TradeOff
 from yawdesign.damper.scored_rows import with_damper
-from yawdesign.damper.trade_off import trade_off
+from yawdesign.damper.trade_off import IncompleteTradeOffError, trade_off
 from yawdesign.hunting.all_conditions import Judged
 from yawdesign.hunting.chosen_condition import AS_WRITTEN, WORST
 from yawdesign.hunting.critical_speed import CriticalSpeeds, critical_speed
@@ -29,14 +29,13 @@ from yawdesign.response.modes.named_modes import Modes, modes
 from yawdesign.response.run.simulate import Simulation, simulate
 from yawdesign.study import review_axes
 from yawdesign.study.result import Sweep
-from yawdesign.study.sweep import swept
+from yawdesign.study.sweep import IncompleteSweepError, swept
 from yawdesign.study.uncertainty import Uncertainty, uncertainty
 
 POINTS = 12  # of the front
 FOLLOWED, CHART, MAP, BODY = 81, (81, 121), 41, 25  # values of an axis; with a car body maps are coarser
 COARSE = 17
 SAMPLES = 2**17  # of uncertain parameters
-MOST_CONDITIONS = 500  # whose margins are told
 DURATION = 20.0  # of the run [s]
 
 T = TypeVar("T")
@@ -197,7 +196,10 @@ class _Told:
             self.progress(f"{name}: {text}" if text else name, self.shown)
 
         told("", 0.0)
-        answer = work(told)
+        try:
+            answer = work(told)
+        except (IncompleteSweepError, IncompleteTradeOffError) as error:  # of a review nothing is kept
+            raise error.__cause__ or error from None
         self.done += share
         self.seconds[name] = time.process_time() - clock
         return answer
@@ -225,10 +227,13 @@ def _of_design(problem: Problem, optimum: Optimum, told: _Told) -> dict[str, Any
 
 
 def each_condition(problem: Problem) -> tuple[ConditionMargins, ...]:
-    """Return the margins of a design under each condition, the least decay rate first; of ranges under some of each."""
+    """Return the margins of a design under each condition, the least decay rate first.
+
+    Of ranges these are the ends, some speeds, and the worst that a search found.
+    """
     p = {name: float(value) for name, value in problem.parameters().items()}
     judged = Judged(problem, p)
-    every = tuple(dict.fromkeys((*judged.conditions.grid(MOST_CONDITIONS), *judged.looked)))
+    every = tuple(dict.fromkeys((*judged.conditions.first_look, *judged.looked)))
     sets = under_conditions(judged.model, judged.p, [(condition, 1) for condition in every])
     variables = tuple(problem.design.variables)
     rates, ratios = (Measure(of, variables).of(sets) for of in ("decay_rate", "damping_ratio"))

@@ -27,8 +27,8 @@ from yawdesign.study.sweep import sweep
 FLAT, FAR = 0.01, (100.0, 1000.0)  # by which the end of a curve may change, and between which f_m [Hz]
 DRAWN_TO = 8.0  # [Hz]
 SAME = 1e-6  # relative difference of two routes that is none
-TWO_COUNTS = "Routh's array and eigenvalues count the same unstable roots on both sides"
-NO_NUMBER = "the figure has no number that could be read off: a value to compare other programs with"
+TWO_COUNTS = "unstable roots on both sides, by Routh and by eigenvalues"
+NO_NUMBER = "the figure prints no number: a value for comparison"
 NO_TRACK = "the paper does not say which irregularity: here German low, 0.3 to 40 Hz"
 # Closer together where the motors move at the frequency of the hunting motion and the curve folds.
 F_M = np.unique(

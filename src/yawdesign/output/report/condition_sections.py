@@ -6,7 +6,7 @@ from yawdesign.output.condition_texts import condition_text
 from yawdesign.output.plots import plot
 from yawdesign.output.report.drawings import bars, marked, of_design
 from yawdesign.output.report.fragments import Section, figure, paragraph, tables
-from yawdesign.output.tables import case_tables, margin, requirement_tables, titled
+from yawdesign.output.tables import margin, requirement_tables, titled
 from yawdesign.study.review_axes import mount
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def conditions(review: "DesignReview") -> Section | None:
     )
     unstable = sum(row.decay_rate < 0 for row in every)
     worst = f"{names[0]} with {shown[0].decay_rate:.4g} 1/s"
-    told = f"The worst of {len(every)} conditions is {worst}; unstable under {unstable}."
+    told = f"The worst of {len(every)} conditions is {worst}; unstable under {unstable or 'none'}."
     table = titled(
         f"The {len(shown)} worst of {len(every)} conditions", "condition", "decay rate [1/s]", "damping ratio [%]"
     )
@@ -53,33 +53,23 @@ def faults(review: "DesignReview") -> Section | None:
     """Return what each fault leaves, before and after."""
     if review.after is None or not review.after.cases:
         return None
-    table = titled(
-        "Least margins with each fault, under all conditions",
-        "fault",
-        "stable",
-        "decay rate as written",
-        "decay rate",
-        "damping ratio",
-    )
+    columns = "fault", "stable", "decay rate as written", "decay rate", "damping ratio"
+    table = titled("Least margins with each fault, under all conditions", *columns)
+    table.add_column("at", justify="left")
     before = {case.name: case for case in (review.before.cases if review.before else ())}
     for case in review.after.cases:
         was = before.get(case.name)
         stable = ("yes" if case.stable else "NO") if case.checked else "not verified"
         was_shown = margin(was.decay_rate, "decay_rate") if was else "not given"
-        table.add_row(
-            case.name,
-            stable,
-            was_shown,
-            margin(case.decay_rate, "decay_rate"),
-            margin(case.damping_ratio, "damping_ratio"),
-        )
+        left = margin(case.decay_rate, "decay_rate"), margin(case.damping_ratio, "damping_ratio")
+        table.add_row(case.name, stable, was_shown, *left, condition_text(case.worst_condition))
     worse = review.optimum.worsened
     warning = (
         paragraph(f"This design survives worse than the one as written: {', '.join(worse)}.", "warning")
         if worse
         else ""
     )
-    return Section("faults", "Faults", warning + tables(table, *case_tables(review.after.cases)))
+    return Section("faults", "Faults", warning + tables(table))
 
 
 def chart(review: "DesignReview") -> Section | None:

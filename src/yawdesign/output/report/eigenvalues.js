@@ -13,7 +13,7 @@ function matrixAt({ size, matrix }, { lambda, creep_factor, v, C_s }) {
 
 function balance(a) {
   const n = a.length;
-  for (let done = false; !done; ) {
+  for (let done = false, turns = 0; !done && turns < 100; turns++) {
     done = true;
     for (let i = 0; i < n; i++) {
       let [r, c] = [0, 0];
@@ -55,6 +55,7 @@ function reduce(a) {
 function eigenvalues(a) {
   balance(a);
   reduce(a);
+  if (!a.every((row) => row.every(Number.isFinite))) throw new RangeError("a number is out of range");
   const found = [];
   let [last, shift, tries] = [a.length - 1, 0, 0];
   while (last >= 0) {

@@ -70,13 +70,23 @@ function show() {
   asked = false;
   const missing = rows.filter((row) => !isGiven(row));
   for (const row of rows) row.field.setAttribute("aria-invalid", String(missing.includes(row)));
-  panel.classList.toggle("waiting", missing.length > 0);
-  if (missing.length) {
-    write("verdict", "A value is missing: give a number above zero.");
-    return;
-  }
   const point = pointNow();
-  const answer = vehicle.at(point);
+  const answer = missing.length ? null : answerAt(point);
+  panel.classList.toggle("waiting", answer === null);
+  if (missing.length) write("verdict", "A value is missing: give a number above zero.");
+  else if (!answer) write("verdict", "These values are too far out to compute with.");
+  else showAnswer(answer, point);
+}
+
+function answerAt(point) {
+  try {
+    return vehicle.at(point);
+  } catch {
+    return null;
+  }
+}
+
+function showAnswer(answer, point) {
   panel.classList.toggle("unstable", !answer.stable || !answer.checked);
   const verdict = answer.stable ? "Stable." : "Unstable.";
   write("verdict", answer.checked ? verdict : "Not decided here: roots and polynomial do not agree.");

@@ -38,20 +38,28 @@ function atDamping(parts, C) {
   return out;
 }
 
-/** The number of roots that are not left of the imaginary axis, by Routh's array; NaN where it breaks down. */
+/**
+ * The number of roots that are not left of the imaginary axis, by Routh's array; NaN where it breaks down. Where a row is
+ * zero, the row above it is a factor with roots s and -s: it goes on with the derivative of that factor, of whose roots
+ * as many lie left of the axis as right of it.
+ */
 function countUnstable(p) {
   const zeros = p.findIndex((a) => a[0] !== 0);
   const q = p.slice(zeros).reverse();
   let [upper, lower] = [q.filter((_, k) => k % 2 === 0), q.filter((_, k) => k % 2)];
-  let changes = 0;
-  while (lower.length) {
+  let [changes, whole, factor] = [0, 0, 0]; // changes of sign: until now, above the zero row; degree of the factor
+  for (let degree = q.length - 1; lower.length; degree--) {
+    if (lower.every((a) => a[0] === 0)) {
+      [whole, factor, changes] = [changes, degree, 0];
+      lower = upper.map((a, k) => times(a, [degree - 2 * k, 0])).slice(0, Math.ceil(degree / 2));
+    }
     if (lower[0][0] === 0 || !Number.isFinite(lower[0][0])) return NaN;
     if (upper[0][0] > 0 !== lower[0][0] > 0) changes++;
     const ratio = over(upper[0], lower[0]);
     const next = upper.slice(1).map((a, k) => (k + 1 < lower.length ? minus(a, times(ratio, lower[k + 1])) : a));
     [upper, lower] = [lower, next];
   }
-  return zeros + changes;
+  return zeros + whole + (factor ? factor - changes : changes);
 }
 
 /** |p(s)| relative to the sum of the magnitudes of its terms; p in s / unit, s in 1/s. */
