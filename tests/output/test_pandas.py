@@ -23,7 +23,6 @@ FIRST = {
     "StationaryResponse": "rms",
     "SpectrumCheck": "densities",
     "Modes": "modes",
-    "Reproduction": "rows",
     "FollowedModes": "modes",
 }
 
