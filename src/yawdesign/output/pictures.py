@@ -76,7 +76,7 @@ def put_title(ax: "Axes", title: str, condition: Mapping[str, Any] | None = None
 def with_condition(title: str, condition: Mapping[str, Any]) -> str:
     """Return a title with the condition of a result: in a line below, or that its values are as written."""
     other = literal(other_condition_in_words(condition))
-    return f"{title}\n{other}" if other else f"{title}, values as written"
+    return f"{title}\n{other}" if other else f"{title}, values{BLANK}as{BLANK}written"
 
 
 def set_title(ax: "Axes", title: str, conditions: str = "", *, left: float = MARGIN, pad: float | None = None) -> None:
