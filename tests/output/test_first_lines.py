@@ -6,7 +6,7 @@ import pytest
 
 import yawdesign as yd
 from yawdesign.output.optimum_tables import optimum_tables
-from yawdesign.output.pictures import under_conditions
+from yawdesign.output.pictures import new_axes, set_title
 from yawdesign.output.tables import design_tables, rendered
 from yawdesign.output.trade_off_tables import trade_off_tables
 
@@ -62,7 +62,9 @@ def test_a_table_of_80_signs_cuts_no_number_of_a_trade_off_and_names_each_condit
 
 
 def test_a_title_has_its_conditions_in_lines_that_fit():
-    title = under_conditions("Critical speed: 259 km/h", "all 2 conditions (load $5; " + "creep x 1, 0.5, " * 6 + ")")
+    ax = new_axes(None)
+    set_title(ax, "Critical speed: 259 km/h", "all 2 conditions (load $5; " + "creep x 1, 0.5, " * 6 + ")")
+    title = ax.get_title(loc="left")
     assert title.startswith("Critical speed: 259 km/h, under all 2 conditions (load \\$5;")
     assert max(map(len, title.splitlines())) <= 80
 
