@@ -77,8 +77,8 @@ def stability_tables(result: "Stability") -> RenderableType:
         f"With C_s = {damping(result.C_s)}",
         [
             ("spectral abscissa, all modes", f"{result.spectral_abscissa:.6g} 1/s"),
-            ("decay rate, modes the design moves", margin(result.decay_rate, "decay_rate")),
-            ("damping ratio, modes the design moves", margin(result.damping_ratio, "damping_ratio")),
+            ("decay rate, modes that a design variable moves", margin(result.decay_rate, "decay_rate")),
+            ("damping ratio, modes that a design variable moves", margin(result.damping_ratio, "damping_ratio")),
             ("worst condition", condition_text(result.worst_condition)),
             ("checked", verified(result.checked)),
         ],
