@@ -177,7 +177,8 @@ def _legend(shown: Sequence[Body], middle: float, top: float, large: float) -> I
     for k, kind in enumerate(kinds):
         x = middle - sum(widths) / 2 + sum(widths[:k])
         opacity = next(body.opacity for body in shown if body.kind == kind)
-        yield f'<rect x="{x:.1f}" y="{top:.1f}" width="{14 * large:.1f}" height="{10 * large:.1f}" {_fill(kind, opacity)}/>'
+        size = f'width="{14 * large:.1f}" height="{10 * large:.1f}"'
+        yield f'<rect x="{x:.1f}" y="{top:.1f}" {size} {_fill(kind, opacity)}/>'
         yield _text(x + 18 * large, top + 9 * large, kind, large, "start")
 
 
