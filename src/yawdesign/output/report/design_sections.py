@@ -104,14 +104,12 @@ def front(review: "DesignReview") -> Section | None:
     """Return how much margin each rotational resistance allows."""
     if review.front is None:
         return None
-    first, last = review.front.front[0], review.front.front[-1]
-    told = "From {:.4f} with {} to {:.4f} with {}, in {} points.".format(
-        first["rotational_resistance"],
-        margin(first["margin"], review.front.objective),
-        last["rotational_resistance"],
-        margin(last["margin"], review.front.objective),
-        len(review.front.front),
+    points = review.front.front
+    first, last = (
+        f"{point['rotational_resistance']:.4f} with {margin(point['margin'], review.front.objective)}"
+        for point in (points[0], points[-1])
     )
+    told = f"From {first} to {last}, in {len(points)} points." if len(points) > 1 else f"One point: {first}."
     drawn = figure(plot(review.front), "front-picture", "Margin over rotational resistance", told)
     return Section("front", "Margin against rotational resistance", drawn + tables(trade_off_tables(review.front)))
 
