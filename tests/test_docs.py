@@ -101,7 +101,9 @@ def escaped(text):
 
 
 def test_blocks_that_escape_are_found():
-    text = "```sh\na\n```\n\n~~~sh\nb\n~~~\n  ```sh\n  c\n  ```\n\n    yawdesign new\n\n```{code-block} python\nd\n```\n"
+    text = (
+        "```sh\na\n```\n\n~~~sh\nb\n~~~\n  ```sh\n  c\n  ```\n\n    yawdesign new\n\n```{code-block} python\nd\n```\n"
+    )
     found = ["~~~sh", "~~~", "  ```sh", "  ```", "    yawdesign new", "```{code-block} python", "```"]
     assert escaped(text) == found
 
