@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from yawdesign.hunting.arrays import Float
+from yawdesign.output.pictures import grouped
 from yawdesign.output.style import GROUND_LINE, LIMIT, halo, steps_of_map
 from yawdesign.output.sweep_style import DECADES, WIDE
 
@@ -46,7 +47,7 @@ def draw_contours(ax: "Axes", x: Float, y: Float, values: Float, inside: "list[P
             return None
         low = 0.0
     levels = _levels(low, high, float(np.percentile(known, RARE)))
-    extend = "min" if low < levels[0] and not signed else "neither"
+    extend = "min" if low < levels[0] else "neither"
     colours = steps_of_map(len(levels) - 1 + (extend == "min"))
     steps = ax.contourf(x, y, whole, levels=levels, colors=colours, extend=extend, zorder=FILLED)
     _lines(ax, x, y, whole, [level for level in levels if level > low], inside)
@@ -56,13 +57,9 @@ def draw_contours(ax: "Axes", x: Float, y: Float, values: Float, inside: "list[P
 def colour_bar(ax: "Axes", steps: Any, label: str) -> None:
     """Explain steps of colour in a bar beside a picture."""
     bar = ax.figure.colorbar(steps, ax=ax, label=label, spacing="uniform", pad=0.02)
-    bar.set_ticks(steps.levels, labels=[_text(level) for level in steps.levels])
+    bar.set_ticks(steps.levels, labels=[grouped(level) for level in steps.levels])
     bar.ax.minorticks_off()
     bar.outline.set_visible(False)
-
-
-def _text(level: float) -> str:
-    return f"{level:,.6g}".replace(",", " ").replace("-", "\u2212")
 
 
 def _levels(low: float, high: float, usual: float) -> list[float]:
@@ -105,7 +102,7 @@ def _lines(ax: "Axes", x: Float, y: Float, values: Float, levels: list[float], i
     if not crossed or not inside:
         return
     lines = ax.contour(x, y, values, levels=crossed, zorder=LINES, **GROUND_LINE)
-    labels = ax.clabel(lines, fmt=_text, fontsize=LETTERS, colors=LIMIT, inline_spacing=3)
+    labels = ax.clabel(lines, fmt=grouped, fontsize=LETTERS, colors=LIMIT, inline_spacing=3)
     lines.set_clip_path(Path.make_compound_path(*inside), ax.transData)
     kept: list[Any] = []
     frame = ax.get_window_extent()

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from yawdesign.output.style import halo
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
@@ -67,7 +69,7 @@ def draw_labels(ax: "Axes", labels: Sequence[MarkLabel], first: float) -> float:
 
 
 def write_inside(ax: "Axes", row: float, start: float, stop: float, text: str, marks: Sequence[float]) -> None:
-    """Write a text at the lower end of a bar inside it, where there is room between the marks.
+    """Write a text at the lower end of a bar: inside it, or before it where a mark leaves no room; else not at all.
 
     Parameters
     ----------
@@ -82,8 +84,14 @@ def write_inside(ax: "Axes", row: float, start: float, stop: float, text: str, m
     marks : sequence of float
         Where lines cross it, in data.
     """
-    note = ax.annotate(text, (start, row), (3, 0), textcoords="offset points", va="center", fontsize="small")
-    box = note.get_window_extent()
-    crossed = [ax.transData.transform((x, row))[0] for x in (stop, *(x for x in marks if x > start * (1 + 1e-6)))]
-    if box.x1 + 1 > min(crossed):
+    look: dict[str, Any] = {"textcoords": "offset points", "va": "center", "fontsize": "small"}
+    lines = sorted(ax.transData.transform((x, row))[0] for x in marks)
+    first, last = (ax.transData.transform((x, row))[0] for x in (start, stop))
+    for side, align in ((3, "left"), (-3, "right")):
+        note = ax.annotate(text, (start, row), (side, 0), ha=align, path_effects=halo(), **look)
+        box = note.get_window_extent()
+        low, high = (first, min(last, ax.bbox.x1)) if side > 0 else (ax.bbox.x0, first)
+        struck = any(box.x0 - 1 < x < box.x1 + 1 for x in lines)
+        if low <= box.x0 and box.x1 + 1 <= high and not struck:
+            return
         note.remove()

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 # Colours of pictures that a page may set anew, for a dark screen, by the name of a variable of its style sheet.
 VARIABLES = {
-    "#000000": "ink",
-    "#ffffff": "paper",
+    style.LIMIT: "ink",
+    style.HALO: "paper",
     style.STABLE: "stable",
     style.UNSTABLE: "unstable",
     style.UNKNOWN: "unknown",
@@ -35,7 +35,7 @@ VARIABLES = {
     **{
         colour: f"series-{k}"
         for k, colour in enumerate(style.SERIES)
-        if colour not in (style.CHOSEN, style.BEFORE, "#000000")
+        if colour not in (style.CHOSEN, style.BEFORE, style.LIMIT)
     },
 }
 

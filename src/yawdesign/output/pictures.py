@@ -28,6 +28,7 @@ DOTS_PER_INCH = 150
 BLANK = "\u00a0"  # at which no line ends
 SIGN, SMALL_SIGN, MARGIN = 6.0, 5.1, 62.0  # width of a sign, of one of a legend, of what stands left of the axes [pt]
 HANDLE, MOST_COLUMNS = 42.0, 4  # width of a mark of a legend with the spaces beside it [pt]; columns side by side
+LARGE = 1000.0  # from where on digits stand in groups
 WIDEST = 200.0  # ratio up to which a logarithmic axis has numbers between the powers of ten
 # Whatever a user's matplotlibrc says: the texts hold Matplotlib's own mathematics, which LaTeX does not understand.
 TEXTS = {"text.usetex": False, "text.parse_math": True, **SETTINGS}
@@ -73,8 +74,9 @@ def put_title(ax: "Axes", title: str, condition: Mapping[str, Any] | None = None
 
 
 def with_condition(title: str, condition: Mapping[str, Any]) -> str:
-    """Return a title with the condition of a result in a line below, unless its values are as written."""
-    return "\n".join(filter(None, (title, literal(other_condition_in_words(condition)))))
+    """Return a title with the condition of a result: in a line below, or that its values are as written."""
+    other = literal(other_condition_in_words(condition))
+    return f"{title}\n{other}" if other else f"{title}, values{BLANK}as{BLANK}written"
 
 
 def set_title(ax: "Axes", title: str, conditions: str = "", *, left: float = MARGIN, pad: float | None = None) -> None:
@@ -183,6 +185,23 @@ def _columns(signs: list[int], room: float) -> int:
     return 1
 
 
+def grouped(value: float) -> str:
+    r"""Return a number beside an axis with its digits in groups of three.
+
+    Examples
+    --------
+    >>> grouped(12500.0), grouped(0.05), grouped(-5.0) == chr(0x2212) + "5"
+    ('12 500', '0.05', True)
+    """
+    return f"{value:,.6g}".replace(",", " ").replace("-", "\u2212")
+
+
+def large_numbers(axis: "Axis") -> None:
+    """Write the numbers beside an axis, its limits set, in groups of three where they are large."""
+    if max(map(abs, axis.get_view_interval())) >= LARGE:
+        axis.set_major_formatter(lambda value, _: grouped(value))
+
+
 def log_axis(ax: "Axes", *, upright: bool = False) -> None:
     """Give an axis, its limits set, a logarithmic scale with numbers that people read: 10, 20, 50, 100, 1 000."""
     (ax.set_yscale if upright else ax.set_xscale)("log")
@@ -196,7 +215,7 @@ def log_numbers(axis: "Axis", *, few: bool) -> None:
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.6g}".replace(",", " ")))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: grouped(value)))
     axis.set_minor_locator(LogLocator(subs=tuple(range(1, 10))))
     axis.set_minor_formatter(NullFormatter())
 

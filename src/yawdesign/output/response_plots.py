@@ -50,7 +50,7 @@ def frequency_response(result: "FrequencyResponse", ax: "Axes | None" = None) ->
     log_axis(lower)
     lower.set_xlabel("frequency [Hz]")
     _add_wavelengths(upper, result.speed)
-    title = f"Answer to a harmonic track at {format_quantity(result.speed, 'km/h', 4)}, {quantity('C_s', result.C_s)}"
+    title = f"Response to a harmonic track at {format_quantity(result.speed, 'km/h', 4)}, {quantity('C_s', result.C_s)}"
     put_title(upper, title + ("" if result.stable else " (unstable: free motions grow)"), result.condition)
     legend_below(lower)
     return upper

@@ -9,7 +9,8 @@ from yawdesign.hunting.arrays import Float
 from yawdesign.output.label_places import Named, names_inside
 from yawdesign.output.mode_paths import Paths
 from yawdesign.output.pictures import legend_below, put_title
-from yawdesign.output.style import LIMIT, STABLE, UNSTABLE, span
+from yawdesign.output.style import HALO, LIMIT, STABLE, UNSTABLE, span
+from yawdesign.problem.quantities import format_number
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -120,7 +121,7 @@ def _top(points: dict[int, Float], widest: float) -> float:
 def _draw_path(ax: "Axes", paths: Paths, k: int, points: Float) -> None:
     look = paths.look(k)
     ax.plot(*points.T, **look)
-    ax.plot(*points[0], "o", color=look["color"], markerfacecolor="white", markersize=5.5, zorder=3)
+    ax.plot(*points[0], "o", color=look["color"], markerfacecolor=HALO, markersize=5.5, zorder=3)
     ax.plot(*points[-1], "o", color=look["color"], markersize=5.5, zorder=3)
     middle = [x for x in _at_marks(paths, k) if np.isfinite(x).all()]
     if middle:
@@ -130,7 +131,9 @@ def _draw_path(ax: "Axes", paths: Paths, k: int, points: Float) -> None:
 
 def _arrow(ax: "Axes", points: Float, colour: str) -> None:
     """Draw an arrowhead in the middle of what is seen of a path."""
-    inside = points[points[:, 0] >= ax.get_xlim()[0]]
+    seen = points[:, 0] >= ax.get_xlim()[0]
+    pieces = np.split(points, np.flatnonzero(np.diff(seen)) + 1)  # a path may leave the picture and come back
+    inside = max((piece for piece in pieces if piece[0, 0] >= ax.get_xlim()[0]), key=len, default=points[:1])
     places = ax.transAxes.inverted().transform(ax.transData.transform(inside))
     way = np.r_[0, np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1))]
     if way[-1] < ARROW_FROM:
@@ -163,12 +166,12 @@ def _explain(ax: "Axes", paths: Paths, target: float | None) -> None:
     """Say in the legend which values ends and marks belong to."""
     unit = paths.row.unit.strip("-")
     shown: dict[str, Any] = {"color": LIMIT, "linestyle": "none"}
-    first, last = (f"{paths.values[k]:.4g} {unit}".strip() for k in (0, -1))
-    ax.plot([], [], "o", markerfacecolor="white", label=first, **shown)
+    first, last = (f"{format_number(paths.values[k], 4)} {unit}".strip() for k in (0, -1))
+    ax.plot([], [], "o", markerfacecolor=HALO, label=first, **shown)
     if target is not None:
         damping_ray(ax, target, f"damping ratio {100 * target:g} %")
     if len(marks := _marks(paths)):
-        ax.plot([], [], "|", label=f"{', '.join(f'{x:g}' for x in marks)} {unit}".strip(), **shown)
+        ax.plot([], [], "|", label=f"{', '.join(map(format_number, marks))} {unit}".strip(), **shown)
     ax.plot([], [], "o", label=last, **shown)
 
 

@@ -44,6 +44,7 @@ BOUNDARY: dict[str, Any] = {"color": LIMIT, "linewidth": 1.8, "linestyle": "soli
 LIMIT_LINE: dict[str, Any] = {"color": LIMIT, "linewidth": 1.3, "linestyle": (0, (5, 3))}
 CHOSEN_LINE: dict[str, Any] = {"color": CHOSEN, "linewidth": 2.2, "linestyle": "solid"}
 GROUND_LINE: dict[str, Any] = {"colors": LIMIT, "linewidths": 0.7, "linestyles": "solid"}  # of equal values on a map
+LESS_BAR: dict[str, Any] = {"facecolor": LESS, "hatch": "xxx", "edgecolor": HALO, "linewidth": 0.5}
 AS_WRITTEN: dict[str, Any] = {
     "linestyle": "none",
     "marker": "o",

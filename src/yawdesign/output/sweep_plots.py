@@ -8,7 +8,7 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Bools, Float
 from yawdesign.output.branches import CriticalColumn, curves, partners, stable_areas
-from yawdesign.output.pictures import legend_below, log_axis, new_axes, set_title
+from yawdesign.output.pictures import large_numbers, legend_below, log_axis, new_axes, set_title
 from yawdesign.output.style import (
     BEFORE,
     CHOSEN_LINE,
@@ -83,6 +83,8 @@ def draw(sweep: Sweep, ax: "Axes | None" = None) -> "Axes":
     if sweep.quantity in ("critical", "C_sl"):
         handles += _limit(sweep, ax, x)
     handles += mark_as_written(ax, sweep, axis.name, upright) if upright else mark_place(ax, sweep, axis.name)
+    if ax.get_yscale() == "linear":
+        large_numbers(ax.yaxis)
     set_title(ax, title(sweep))
     legend_below(ax, handles)
     return ax

@@ -6,7 +6,7 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.branches import CriticalColumn
-from yawdesign.output.pictures import literal, log_axis, wrapped
+from yawdesign.output.pictures import large_numbers, literal, log_axis, wrapped
 from yawdesign.output.regions import Line, chained
 from yawdesign.output.style import AS_WRITTEN, critical_line
 from yawdesign.problem import to_unit
@@ -94,6 +94,8 @@ def scale_axis(ax: "Axes", axis: Axis, *, upright: bool = False) -> None:
     """Choose a logarithmic scale for an axis, its limits set, whose values have equal ratios."""
     if is_geometric(axis):
         log_axis(ax, upright=upright)
+    else:
+        large_numbers(ax.yaxis if upright else ax.xaxis)
 
 
 def columns_of(sweep: Sweep, factor: float) -> list[CriticalColumn]:

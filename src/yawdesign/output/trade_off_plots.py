@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.damper.curving import RAISING
-from yawdesign.output.pictures import legend_below, log_axis, new_axes, set_title
+from yawdesign.output.pictures import large_numbers, legend_below, log_axis, new_axes, set_title
 from yawdesign.output.style import BEFORE, CHOSEN, CHOSEN_LINE, EXCLUDED, HALO, LIMIT_LINE, UNSTABLE, span
 from yawdesign.output.sweep_style import SHOWN, WIDE
 from yawdesign.problem import PARAMETERS, ProblemError, to_unit
@@ -98,6 +98,8 @@ def _draw_variable(result: "TradeOff", ax: "Axes", name: str) -> None:
     # The resistance is linear in what it rises with.
     if name not in RAISING and min(values) > 0 and max(values) > WIDE / 3 * min(values):
         log_axis(ax, upright=True)
+    else:
+        large_numbers(ax.yaxis)
     _limit(result, ax, labels=False)
     ax.set_ylabel(f"${row.symbol}$" + (f"\n[{unit}]" if unit != "-" else ""))
 

@@ -1,6 +1,7 @@
 """Pictures of the answer for uncertain parameters."""
 
 from collections.abc import Sequence
+from math import floor, log10
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,7 +10,7 @@ from yawdesign.hunting.arrays import Array
 from yawdesign.output.mark_labels import MarkLabel, draw_labels
 from yawdesign.output.panels import divided
 from yawdesign.output.pictures import legend_below, new_axes, set_title, wrapped
-from yawdesign.output.style import BEFORE, CHOSEN, HALO, LESS, LIMIT, MORE, REST, STABLE, UNSTABLE, span
+from yawdesign.output.style import BEFORE, CHOSEN, LESS_BAR, LIMIT, MORE, REST, STABLE, UNSTABLE, span
 from yawdesign.problem import PARAMETERS, ProblemError, to_unit
 from yawdesign.problem.condition import CREEP_FACTOR
 from yawdesign.problem.running import SPEED
@@ -86,12 +87,12 @@ def _tornado(result: "Uncertainty", ax: "Axes") -> list[MarkLabel]:
     unit = UNITS[result.objective]
     middle = to_unit(result.margin, unit)
     rows = range(len(effects))
-    for sign, colour, hatch, label in (
-        (1, MORE, None, "one standard deviation more"),
-        (-1, LESS, "xxx", "one standard deviation less"),
+    for sign, look, label in (
+        (1, {"facecolor": MORE}, "one standard deviation more"),
+        (-1, LESS_BAR, "one standard deviation less"),
     ):
         widths = [sign * to_unit(effect, unit) for effect in effects.values()]
-        ax.barh(rows, widths, BAR, left=middle, color=colour, hatch=hatch, edgecolor=HALO, linewidth=0.5, label=label)
+        ax.barh(rows, widths, BAR, left=middle, label=label, **look)
     low, high = ax.get_xlim()
     if low < 0:
         span(ax, low, min(0.0, high), UNSTABLE, label="unstable")
@@ -118,18 +119,24 @@ def _distribution(result: "Uncertainty", ax: "Axes", of: str) -> list[MarkLabel]
         span(ax, 0.0, max(high, 0.0), STABLE, label="stable")
         low, high = min(low, 0.0), max(high, 0.0)
     labels = []
+    decimals = max(0, 2 - floor(log10(max(abs(low), abs(high)))))
     for level, dashes in MARKED.items():
         value = result.percentiles[of].get(level)
         if value is not None:
             shown = to_unit(value, unit)
             ax.axvline(shown, color=CHOSEN, linestyle=dashes, linewidth=1.6, zorder=3)
-            labels.append(MarkLabel(shown, f"{level} %: {shown:.3g} {unit}", CHOSEN))
+            labels.append(MarkLabel(shown, f"{level} %: {_rounded(shown, decimals)} {unit}", CHOSEN))
     name = NAMES.get(of, f"least {result.objective.replace('_', ' ')}")
     none = 100 - max(levels)
     beside = f"; stable for no $C_\\mathrm{{s}}$ in {none} %" if none else ""
     ax.set_xlabel(wrapped(f"{name} [{unit}]{beside}", 66))
     ax.set(xlim=(low, high), ylabel=f"share of {result.percentiles_from} samples\n[% in each bar]")
     return labels
+
+
+def _rounded(value: float, decimals: int) -> str:
+    """Return a number with so many decimals: all of one picture are rounded alike."""
+    return f"{round(value, decimals) + 0.0:,.{decimals}f}".replace(",", " ").replace("-", "−")
 
 
 def _ends(values: Sequence[float]) -> Array:

@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
+from yawdesign.output import style
 from yawdesign.output.condition_texts import condition_text
 from yawdesign.output.plots import plot
 from yawdesign.output.report.drawings import bars, marked, of_design
@@ -34,9 +35,8 @@ def conditions(review: "DesignReview") -> Section | None:
         return None
     shown = every[:SHOWN]
     names = [condition_text(row.condition) for row in shown]
-    axes = bars(
-        names, [row.decay_rate for row in shown], "least decay rate [1/s]", [f"{row.decay_rate:.3g}" for row in shown]
-    )
+    rates = [row.decay_rate for row in shown]
+    axes = bars(names, rates, "least decay rate [1/s]", [f"{rate:.3g}" for rate in rates], style.UNSTABLE)
     unstable = sum(row.decay_rate < 0 for row in every)
     worst = f"{names[0]} with {shown[0].decay_rate:.4g} 1/s"
     told = f"The worst of {len(every)} conditions is {worst}; unstable under {unstable or 'none'}."
@@ -99,7 +99,8 @@ def wear(review: "DesignReview") -> Section | None:
     )
     axes = marked(of_design(plot(review.wear)), "condition", points)
     what = "Margin of this design over conicity and creep"
-    told = f"{what}, {_under(review.wear)}. The dots are the conditions of the problem."
+    dots = " The dots are the conditions of the problem." if len(points) > 1 else ""
+    told = f"{what}, {_under(review.wear)}. The ring is this design.{dots}"
     return Section("wear", "Conicity and creep", figure(axes, "wear-picture", "Margin over conicity and creep", told))
 
 

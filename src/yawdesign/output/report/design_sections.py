@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from math import isinf
 from typing import TYPE_CHECKING, Any
 
+from yawdesign.output import style
 from yawdesign.output.choice_tables import choice_tables
 from yawdesign.output.plots import plot
 from yawdesign.output.report.drawings import bars, marked
@@ -137,7 +138,9 @@ def _sensitivities(review: "DesignReview") -> Iterator[str]:
     if largest:
         names = [_named(name) for name, _ in largest]
         values: list[float] = [value for _, value in largest]
-        axes = bars(names, values, "change of $C_\\mathrm{sl}$ for 1 % more [%]", [f"{x:+.3g}" for x in values])
+        axes = bars(
+            names, values, "change of $C_\\mathrm{sl}$ for 1 % more [%]", [f"{x:+.3g}" for x in values], style.LESS
+        )
         told = f"1 % more of {largest[0][0]} changes C_sl by {values[0]:+.3g} %, of the others by less."
         yield figure(axes, "tornado", "Sensitivities of the least stable yaw damping", told)
     if review.uncertainty is not None:

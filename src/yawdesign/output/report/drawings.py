@@ -1,8 +1,9 @@
 """Pictures that stand in this page only: bars by name, marks on maps, two curves beside each other."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from yawdesign.hunting.chosen_condition import condition_in_words
 from yawdesign.output import style
 from yawdesign.output.pictures import legend_below, literal, new_axes, own_texts
 from yawdesign.output.sweep_style import axis_label, axis_values
@@ -21,20 +22,30 @@ BAR, LINE, AROUND = (
 ROOM = 0.2  # for the numbers beside the bars, in the width of the picture
 
 
-def bars(names: Sequence[str], values: Sequence[float], label: str, texts: Sequence[str]) -> "Axes":
-    """Draw values by name, the first on top: those below zero hatched, each with its number."""
+def bars(names: Sequence[str], values: Sequence[float], label: str, texts: Sequence[str], below: str) -> "Axes":
+    """Draw values by name, the first on top, each with its number.
+
+    Those below zero are hatched, as what they are: `below` is the colour of an area or `LESS`.
+    """
     with own_texts():
         ax = new_axes(None)
+        negative = style.LESS_BAR if below == style.LESS else style.area(below)
         lines = max(name.count("\n") for name in names) + 1
         ax.get_figure(root=True).set_size_inches(style.WIDTH, AROUND + (BAR + LINE * lines) * len(names))  # type: ignore[union-attr]
         ax.spines["left"].set_visible(False)
         ax.tick_params(axis="y", length=0)
         for row, (value, text) in enumerate(zip(values, texts, strict=True)):
-            look = style.area(style.UNSTABLE) if value < 0 else {"facecolor": style.CHOSEN}
+            look = negative if value < 0 else {"facecolor": style.CHOSEN}
             ax.barh(row, value, height=0.62, **look)
             side, align = (4, "left") if value >= 0 else (-4, "right")
             ax.annotate(
-                text, (value, row), (side, 0), textcoords="offset points", ha=align, va="center", fontsize="small"
+                text.replace("-", "−"),
+                (value, row),
+                (side, 0),
+                textcoords="offset points",
+                ha=align,
+                va="center",
+                fontsize="small",
             )
         ax.axvline(0, color=style.LIMIT, linewidth=0.8)
         ax.set_yticks(
@@ -47,9 +58,9 @@ def bars(names: Sequence[str], values: Sequence[float], label: str, texts: Seque
 
 
 MARKS: dict[str, dict[str, Any]] = {
-    "design": {"marker": "D", "markersize": 8, "markerfacecolor": style.CHOSEN, "markeredgecolor": "white"},
-    "before": {"marker": "s", "markersize": 7, "markerfacecolor": "white", "markeredgecolor": style.BEFORE},
-    "condition": {"marker": "o", "markersize": 4, "markerfacecolor": style.LIMIT, "markeredgecolor": "white"},
+    "design": {"marker": "D", "markersize": 8, "markerfacecolor": style.CHOSEN, "markeredgecolor": style.HALO},
+    "before": {"marker": "s", "markersize": 7, "markerfacecolor": style.HALO, "markeredgecolor": style.BEFORE},
+    "condition": {"marker": "o", "markersize": 4, "markerfacecolor": style.LIMIT, "markeredgecolor": style.HALO},
 }
 
 
@@ -64,11 +75,18 @@ def marked(ax: "Axes", kind: str, points: Sequence[tuple[float, float]], **more:
 
 
 def of_design(ax: "Axes") -> "Axes":
-    """Call the point that a map marks by its name in this page: there the design stands in the place of the problem."""
-    legend = ax.get_legend()
-    for text in legend.get_texts() if legend else ():
-        text.set_text(text.get_text().replace("as written", "this design"))
+    """Call what is as written by its name in this page: there the design stands in the place of the problem."""
+    from matplotlib.text import Text
+
+    for each in ax.findobj(Text):
+        text: Any = each
+        text.set_text(text.get_text().replace("values as written", "as written").replace("as written", "this design"))
     return ax
+
+
+def under_words(condition: Mapping[str, Any]) -> str:
+    """Return the condition of a result of the design in words."""
+    return condition_in_words(condition).replace("values as written", "values of this design")
 
 
 def curves_over(sweeps: "Sequence[Sweep]", names: Sequence[str], unit: str, label: str) -> "Axes":

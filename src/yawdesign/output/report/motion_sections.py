@@ -4,13 +4,12 @@ from dataclasses import replace
 from math import degrees, isinf
 from typing import TYPE_CHECKING
 
-from yawdesign.hunting.chosen_condition import condition_in_words
 from yawdesign.output.critical_speed_tables import critical_speed_tables
 from yawdesign.output.markup import text
 from yawdesign.output.mode_tables import followed_tables, modes_tables
 from yawdesign.output.plan_view import caption
 from yawdesign.output.plots import plot
-from yawdesign.output.report.drawings import curves_over
+from yawdesign.output.report.drawings import curves_over, of_design, under_words
 from yawdesign.output.report.film import film
 from yawdesign.output.report.fragments import Section, figure, folded, subheading, tables
 from yawdesign.output.report.live_panel import live_panel
@@ -32,10 +31,13 @@ def damping_over_speed(review: "DesignReview") -> Section | None:
     if review.paths is None:
         return None
     target = next((x.wanted for x in review.problem.requirements if x.name == "damping_ratio"), None)
-    told = f"Damping ratio of each mode over the running speed, {condition_in_words(review.paths.condition)}."
+    told = f"Damping ratio of each mode over the running speed, {under_words(review.paths.condition)}."
     drawn = [
         figure(
-            plot(review.paths, of="damping_ratio", target=target), "damping-picture", "Damping ratio over speed", told
+            of_design(plot(review.paths, of="damping_ratio", target=target)),
+            "damping-picture",
+            "Damping ratio over speed",
+            told,
         )
     ]
     drawn.append(folded("The same as a table", tables(followed_tables(review.paths))))
@@ -52,8 +54,8 @@ def root_locus(review: "DesignReview") -> Section | None:
     if review.paths is None:
         return None
     low, high = review.paths.values[0], review.paths.values[-1]
-    told = f"Eigenvalues from {speed(low)} to {speed(high)}, {condition_in_words(review.paths.condition)}."
-    drawn = figure(plot(review.paths), "locus-picture", "Root locus over the running speed", told)
+    told = f"Eigenvalues from {speed(low)} to {speed(high)}, {under_words(review.paths.condition)}."
+    drawn = figure(of_design(plot(review.paths)), "locus-picture", "Root locus over the running speed", told)
     modes = tables(modes_tables(review.modes)) if review.modes else ""
     return Section("locus", "Root locus over speed", drawn + modes)
 
@@ -64,7 +66,7 @@ def hunting(review: "DesignReview") -> Section | None:
         return None
     name = review.modes.hunting
     mode = next(x for x in review.modes.modes if name in (None, x.name))
-    under = condition_in_words(review.modes.condition)
+    under = under_words(review.modes.condition)
     told = f"{caption(mode)}; {under}. One cycle again and again, without decay or growth."
     moving = film(review.modes, mode.name, "film", f"The mode {mode.name} in motion, seen from above", told)
     body = f'<figure class="film">{moving}<figcaption>{text(told)}</figcaption></figure>'
@@ -75,8 +77,8 @@ def run(review: "DesignReview") -> Section | None:
     """Return the run over a track."""
     if review.run is None:
         return None
-    told = f"Track {review.run.track}, {condition_in_words(review.run.condition)}; {review.run.runs[0].verdict}."
-    drawn = figure(plot(review.run, until=10.0), "run-picture", "Run over a track", told)
+    told = f"Track {review.run.track}, {under_words(review.run.condition)}; {review.run.runs[0].verdict}."
+    drawn = figure(of_design(plot(review.run, until=10.0)), "run-picture", "Run over a track", told)
     return Section("run", "Run over a track", drawn + folded("All responses", tables(simulation_tables(review.run))))
 
 
