@@ -101,7 +101,7 @@ def escaped(text):
 
 
 def test_blocks_that_escape_are_found():
-    text = "```sh\na\n```\n\n~~~sh\nb\n~~~\n  ```sh\n  c\n  ```\n\n    yawdesign new\n\n```{code-block} python\nd\n```\n"
+    text = "```sh\na\n```\n\n~~~sh\nb\n~~~\n  ```sh\n  c\n  ```\n\n    yawdesign new\n```{code-block} python\nd\n```\n"
     found = ["~~~sh", "~~~", "  ```sh", "  ```", "    yawdesign new", "```{code-block} python", "```"]
     assert escaped(text) == found
 
@@ -156,7 +156,7 @@ def test_extras_that_a_page_installs_exist(page):
 
 @every_page
 def test_problem_files_on_a_page_can_be_read(page, tmp_path, monkeypatch):
-    """A part of one is read with the rest from Table I; what a page shows as mistaken has behind it what `check` prints."""
+    """A part of one is read with the rest from Table I; behind a mistaken one stands what `check` prints of it."""
     monkeypatch.chdir(tmp_path)
     found = BLOCKS.blocks(page)
     for file in (block for block in found if block.mark.startswith("file ")):
