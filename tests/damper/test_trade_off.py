@@ -70,7 +70,7 @@ def quick(monkeypatch):
     """Let the best design be the one with the most damping, so that a front takes no time; return how often."""
     calls = []
 
-    def most_damping(problem, known, near, seed):
+    def most_damping(problem, known, near, seed, progress=None):
         calls.append(problem.curve.limit)
         space = Space(problem, known=known)
         return known, {name: float(x) for name, x in space.values(np.ones(1)).items()}
@@ -217,10 +217,10 @@ def test_an_executor_computes_the_points(quick):
 def test_what_is_finished_is_kept(quick, monkeypatch):
     solved = module._solved
 
-    def stopped(*task):
+    def stopped(*task, **more):
         if len(quick) == 3:
             raise KeyboardInterrupt
-        return solved(*task)
+        return solved(*task, **more)
 
     monkeypatch.setattr(module, "_solved", stopped)
     with pytest.raises(yd.IncompleteTradeOffError, match="stopped") as caught:
