@@ -9,7 +9,15 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.panels import divided
-from yawdesign.output.pictures import legend_below, literal, new_axes, put_title, quantity, with_condition
+from yawdesign.output.pictures import (
+    large_numbers,
+    legend_below,
+    literal,
+    new_axes,
+    put_title,
+    quantity,
+    with_condition,
+)
 from yawdesign.output.response_words import SHOWN, meaning
 from yawdesign.output.style import BEFORE, LIMIT, REST, line_of
 from yawdesign.problem import ProblemError, format_quantity
@@ -98,8 +106,10 @@ def simulation(
     first = f"{whole}, {drawn}\n" if len(panels) > 1 else ""
     title = with_condition(_title(result, [one for _, one in chosen]), result.condition)
     put_title(panels[0], f"{first}{title}{below}")
-    handles = panels[0].get_legend_handles_labels()[0]
-    if handles := handles if len(curves) > 1 else handles[1:]:  # a single curve is explained by the title
+    known = {str(x.get_label()): x for panel in panels for x in panel.get_legend_handles_labels()[0]}
+    handles = [*known.values()]
+    alone = len(names) == 1 and len({curve.look["color"] for curve in curves}) == 1  # explained by the titles
+    if handles := handles[1:] if alone else handles:
         legend_below(panels[-1], handles=handles)
     return panels[0]
 
@@ -168,6 +178,7 @@ def _draw_lines(ax: "Axes", curves: Sequence[TimeCurve]) -> None:
 def _over_time(ax: "Axes", curves: Sequence[TimeCurve]) -> None:
     ax.axhline(0, color=LIMIT, linewidth=0.6, zorder=1)
     ax.grid()
+    large_numbers(ax.yaxis)
     ax.set_xlim(0, max(curve.time[-1] for curve in curves))
     for curve in curves:
         _growing(ax, curve)
