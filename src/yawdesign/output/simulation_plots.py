@@ -107,9 +107,9 @@ def simulation(
     title = with_condition(_title(result, [one for _, one in chosen]), result.condition)
     put_title(panels[0], f"{first}{title}{below}")
     known = {str(x.get_label()): x for panel in panels for x in panel.get_legend_handles_labels()[0]}
-    handles = [*known.values()]
-    alone = len(names) == 1 and len({curve.look["color"] for curve in curves}) == 1  # explained by the titles
-    if handles := handles[1:] if alone else handles:
+    if len({curve.look["color"] for curve in curves}) == 1:  # a single curve is explained by the title
+        known = {label: x for label, x in known.items() if label not in {curve.label for curve in curves}}
+    if handles := [*known.values()]:
         legend_below(panels[-1], handles=handles)
     return panels[0]
 
