@@ -11,6 +11,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import pytest
 import typer
+from typer.testing import CliRunner
 
 import yawdesign as yd
 from yawdesign.cli import app
@@ -88,6 +89,21 @@ def test_every_block_is_run_or_read_by_a_test(page):
     for block in BLOCKS.blocks(page):
         known = block.mark.startswith("file ") or block.language in {"python", "sh", "yaml", *READ_ELSEWHERE}
         assert known, f"{page.name}:{block.line}: {block.language or 'a block without a language'}"
+        assert not block.printed or block.language in {"python", "sh"}, f"{page.name}:{block.line} prints nothing"
+    assert escaped(page.read_text(encoding="utf-8")) == []
+
+
+def escaped(text):
+    """Return lines of a page that look like a block, or a command of one, and are none that is found."""
+    rest = BLOCKS.BLOCK.sub("", text)
+    programs = "yawdesign|python3?|pip|import|from|>>>|\\$|print"
+    return re.findall(rf"^.*(?:```|~~~).*$|^(?: {{4}}|\t) *(?:{programs})\b.*$", rest, re.MULTILINE)
+
+
+def test_blocks_that_escape_are_found():
+    text = "```sh\na\n```\n\n~~~sh\nb\n~~~\n  ```sh\n  c\n  ```\n\n    yawdesign new\n```{code-block} python\nd\n```\n"
+    found = ["~~~sh", "~~~", "  ```sh", "  ```", "    yawdesign new", "```{code-block} python", "```"]
+    assert escaped(text) == found
 
 
 @pytest.mark.slow
@@ -140,13 +156,18 @@ def test_extras_that_a_page_installs_exist(page):
 
 @every_page
 def test_problem_files_on_a_page_can_be_read(page, tmp_path, monkeypatch):
-    """A part of one is read with the rest from Table I; what a page shows as mistaken has its messages behind it."""
+    """A part of one is read with the rest from Table I; behind a mistaken one stands what `check` prints of it."""
     monkeypatch.chdir(tmp_path)
     found = BLOCKS.blocks(page)
     for file in (block for block in found if block.mark.startswith("file ")):
         Path(file.mark.removeprefix("file ")).write_text(file.text, encoding="utf-8")
     for block, following in itertools.zip_longest(found, found[1:]):
-        if block.language == "yaml" and not (following and following.language == "text"):
+        messages = following is not None and following.language == "text" and not following.mark
+        assert not messages or block.language == "yaml", f"{page.name}:{following.line}: messages of what?"
+        if messages:
+            Path("problem.yaml").write_text(block.text, encoding="utf-8")
+            BLOCKS.compare(following.text, CliRunner().invoke(app, ["check", "problem.yaml"]).output, page.name)
+        elif block.language == "yaml":
             with warnings.catch_warnings(action="ignore"):
                 yd.loads("".join(f"{line}\n" for key, line in NEEDED.items() if key not in block.text) + block.text)
 

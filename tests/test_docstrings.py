@@ -4,6 +4,7 @@ import dataclasses
 import inspect
 import re
 import typing
+from pathlib import Path
 
 import pytest
 
@@ -156,6 +157,19 @@ def test_arguments_are_described_with_their_units(name):
 @pytest.mark.parametrize("cls", CLASSES, ids=lambda cls: cls.__name__)
 def test_fields_are_described_with_their_units(cls):
     assert not list(faults_of_class(cls))
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_what_is_returned_is_described(name):
+    returned = inspect.signature(FUNCTIONS[name]).return_annotation
+    assert returned is None or re.search("^Returns\n-{7}\n", inspect.getdoc(FUNCTIONS[name]), re.MULTILINE)
+
+
+def test_every_part_of_a_result_stands_in_the_reference():
+    pages = "".join(page.read_text(encoding="utf-8") for page in Path(__file__).parents[1].glob("docs/api/*.md"))
+    named = set(re.findall(r"^\.\. auto\w+:: yawdesign\.(?:\w+\.)*(\w+)$", pages, re.MULTILINE))
+    asked = {"Condition", "Model", "Question", "Request", "Task"}  # what was asked, as workers get it
+    assert {cls.__name__ for cls in CLASSES} - asked - named == set()
 
 
 def test_faults_are_found():

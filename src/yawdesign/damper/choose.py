@@ -36,6 +36,11 @@ def choose(problem: Problem, *, executor: Any = None, progress: Progress = lambd
     progress : callable, optional
         Called with a text and the share that is done, 0 ... 1.
 
+    Returns
+    -------
+    Choice
+        The dampers with their margins, the best first.
+
     Raises
     ------
     ProblemError

@@ -115,6 +115,11 @@ def design(problem: Problem) -> ForwardDesign:
     problem : Problem
         ``C_s`` need not be given; without a curve there may be no upper limit and so no choice.
 
+    Returns
+    -------
+    ForwardDesign
+        Critical values, C_sl, C_su and C_s [N s/m], and what kind of answer it is.
+
     Examples
     --------
     >>> import yawdesign as yd

@@ -61,6 +61,11 @@ def optimise(
     progress : callable, optional
         Called with a text and the share that is done, 0 ... 1.
 
+    Returns
+    -------
+    Optimum
+        The design variables in SI, the margin, and what limits it.
+
     Raises
     ------
     ProblemError

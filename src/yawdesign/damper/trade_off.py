@@ -93,6 +93,11 @@ def trade_off(
     progress : callable, optional
         Called with a text and the share that is done, 0 ... 1.
 
+    Returns
+    -------
+    TradeOff
+        The front, and the design as written beside it.
+
     Raises
     ------
     ProblemError

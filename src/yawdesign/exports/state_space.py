@@ -94,6 +94,11 @@ def state_space(problem: Problem, *, condition: Asked = AS_WRITTEN) -> StateSpac
         ``"as written"`` (default), ``"worst"`` of all conditions, or values such as ``{"lambda": 0.4, "creep_factor":
         0.5, "speed": "330 km/h", "load": "laden", "tolerance.K_m": "-10 %"}``: the others stay as written.
 
+    Returns
+    -------
+    StateSpaceModel
+        The matrices with names and units of states, inputs and outputs.
+
     Raises
     ------
     ProblemError

@@ -81,6 +81,11 @@ def critical_speed(problem: Problem) -> CriticalSpeeds:
     problem : Problem
         With a value of ``C_s``.
 
+    Returns
+    -------
+    CriticalSpeeds
+        The critical speeds [m/s], under which condition, and what requires them.
+
     Raises
     ------
     ProblemError

@@ -21,6 +21,11 @@ def stability(problem: Problem) -> Stability:
     problem : Problem
         With a value of ``C_s``.
 
+    Returns
+    -------
+    Stability
+        Verdict, margins [1/s], [-], modes, requirements and faults.
+
     Raises
     ------
     ProblemError

@@ -77,8 +77,8 @@ def stability_tables(result: "Stability") -> RenderableType:
         f"With C_s = {damping(result.C_s)}",
         [
             ("spectral abscissa, all modes", f"{result.spectral_abscissa:.6g} 1/s"),
-            ("decay rate, modes the design moves", margin(result.decay_rate, "decay_rate")),
-            ("damping ratio, modes the design moves", margin(result.damping_ratio, "damping_ratio")),
+            ("decay rate, modes that a design variable moves", margin(result.decay_rate, "decay_rate")),
+            ("damping ratio, modes that a design variable moves", margin(result.damping_ratio, "damping_ratio")),
             ("worst condition", condition_text(result.worst_condition)),
             ("checked", verified(result.checked)),
         ],
@@ -200,7 +200,7 @@ def _design_facts(result: "ForwardDesign") -> Table:
         *([("the condition that sets it", condition_text(result.worst_condition))] if result.worst_condition else []),
         (f"C_su, limit of the curve{load}", _allowed(result.C_su)),
         ("C_s, golden section", damping(result.C_s)),
-        ("is that C_s stable", "yes" if result.stable else "no"),
+        ("is that C_s stable", "-" if result.C_s is None else "yes" if result.stable else "no"),
     ]
     if result.rotational_resistance is not None:
         rows.append(("rotational resistance T/(4Qa)", f"{result.rotational_resistance:.5f}"))

@@ -154,7 +154,7 @@ def _inner(around: Path, rest: str, node: object, value: object) -> Iterator[str
         if not isinstance(value, Mapping):
             name = next((rest.removesuffix(f".{each}") for each in ONE_BOGIE if rest.endswith(f".{each}")), None)
             name = name or rest.rpartition(".")[0] or rest
-            there = f"there are {', '.join(inside)}" if inside else "there is none"
+            there = f"there are {', '.join(inside)}" if inside else "it holds nothing yet"
             raise ProblemError(f"{shown(name)} is not known under {'.'.join(map(str, around))}; {there}")
         key = rest
     elif around[:-1] in _NAMED_BY_USERS:

@@ -78,7 +78,9 @@ def _not_among(problem: Problem) -> Iterator[tuple[Path, str]]:
         if taken and not min(taken) <= value <= max(taken):
             place = ("conditions", key) if key in problem.conditions.keys else ("conditions", "load")
             own = f"the value as designed, {format_quantity(value, row.unit)}, is none of these"
-            yield place, f"{own}: answers hold for {row.range_text((min(taken), max(taken)), row.unit)}"
+            ends = (min(taken), max(taken))
+            held = row.range_text(ends, row.unit) if ends[0] < ends[1] else format_quantity(ends[0], row.unit)
+            yield place, f"{own}: answers hold for {held}"
 
 
 def _weight(problem: Problem, data: Mapping[str, Any]) -> Iterator[tuple[Path, str]]:

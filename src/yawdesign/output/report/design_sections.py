@@ -26,7 +26,7 @@ SHOWN, LINE = 12, 34  # sensitivities, signs of a name in a line
 def intervals(review: "DesignReview") -> Section:
     """Return where the yaw damping is stable, and where the design lies in that."""
     forward, chosen = review.forward, review.optimum.C_s
-    axes = plot(forward)
+    axes = plot(forward, beside=[chosen] if chosen else [])
     if chosen is not None:
         text = f"{format_quantity(chosen, 'kN·s/m', 4)}, this design"
         marked(axes, "design", [(to_unit(chosen, "kN·s/m"), 0.5)], label=text, transform=axes.get_xaxis_transform())
@@ -139,15 +139,22 @@ def _sensitivities(review: "DesignReview") -> Iterator[str]:
         axes = bars(
             names, values, "change of $C_\\mathrm{sl}$ for 1 % more [%]", [f"{x:+.3g}" for x in values], style.LESS
         )
-        told = f"1 % more of {largest[0][0]} changes C_sl by {values[0]:+.3g} %, of the others by less."
+        told = f"1 % more of {_meant(largest[0][0])} changes C_sl by {values[0]:+.3g} %, of the others by less."
         yield figure(axes, "tornado", "Sensitivities of the least stable yaw damping", told)
     if review.uncertainty is not None:
         yield from _uncertain(review.uncertainty)
 
 
 def _named(name: str) -> str:
-    meaning = PARAMETERS[name].meaning if name in PARAMETERS else "running speed"
-    return textwrap.fill(f"{name}: {meaning}", LINE)
+    return textwrap.fill(f"{name}: {_meaning(name)}", LINE)
+
+
+def _meant(name: str) -> str:
+    return f"{name} ({_meaning(name)})"
+
+
+def _meaning(name: str) -> str:
+    return PARAMETERS[name].meaning if name in PARAMETERS else "running speed"
 
 
 def _uncertain(result: Any) -> Iterator[str]:

@@ -39,14 +39,14 @@ class NamedMode(Mode):
     shape : mapping coordinate -> complex
         Displacements [m] and angles [rad], scaled so that the largest of all displacements is 1 and leads with phase
         zero. An angle counts as a displacement of its body: times the half wheelbase; for the car body times l_c (yaw)
-        and |h_s| (roll; b_2 where h_s is 0), for roll of the frame times b_1. The motion is the real part
+        and ``|h_s|`` (roll; b_2 where h_s is 0), for roll of the frame times b_1. The motion is the real part
         of ``shape * exp(eigenvalue t)``.
     participation : mapping str -> float
         Share of each coordinate (with its velocity) and of each damper's stroke in the mode [-]: left times right
         eigenvector. The shares sum to 1 and do not depend on units.
     conicity : float
-        How much the root depends on the conicity, |d ln eigenvalue / d ln lambda| [-]: 1/2 for a wheelset that rolls
-        freely, 0 for what knows nothing of the wheels.
+        How much the root depends on the conicity, ``|d ln eigenvalue / d ln lambda|`` [-]: 1/2 for a wheelset that
+        rolls freely, 0 for what knows nothing of the wheels.
     hunting : bool
         Whether it is the hunting of the vehicle, of which the least decay rate counts where each bogie has its own.
     car_body : float or None
@@ -110,7 +110,7 @@ class Modes(Result):
             return self.modes[which]
         named = {mode.name: mode for mode in self.modes}
         if which not in named:
-            raise ProblemError(f"mode {which!r} {unknown_key(which, tuple(named))}; modes: {', '.join(named)}")
+            raise ProblemError(f"mode {which!r} {unknown_key(which, tuple(named))}; modes: {'; '.join(named)}")
         return named[which]
 
     def __iter__(self) -> Iterator[NamedMode]:
@@ -130,6 +130,11 @@ def modes(problem: Problem, *, condition: Asked = AS_WRITTEN) -> Modes:
     condition : str or mapping
         ``"as written"`` (default), ``"worst"`` of all conditions, or values such as ``{"lambda": 0.4, "creep_factor":
         0.5, "speed": "330 km/h", "load": "laden", "tolerance.K_m": "-10 %"}``: the others stay as written.
+
+    Returns
+    -------
+    Modes
+        Every mode by name, the slowest first.
 
     Raises
     ------

@@ -33,7 +33,7 @@ class DynamicStiffness:
     frequency : float
         Frequency [Hz].
     stiffness : float
-        |Z|, force over displacement [N/m].
+        ``|Z|``, force over displacement [N/m].
     phase : float
         By which the force leads the displacement [rad]; pi/2 for a damper with rigid joints.
     loss_factor : float

@@ -270,6 +270,11 @@ def damper_component(problem: Problem, bogie: str = "", **options: Any) -> Dampe
     **options
         Of `simulate`, for the run.
 
+    Returns
+    -------
+    DamperComponent
+        Dynamic stiffness, phase and force of the damper, with units.
+
     Raises
     ------
     ProblemError

@@ -78,6 +78,11 @@ def stationary_response(
         ``"as written"`` (default), ``"worst"`` of all conditions, or values such as ``{"lambda": 0.4, "creep_factor":
         0.5, "speed": "330 km/h", "load": "laden", "tolerance.K_m": "-10 %"}``: the others stay as written.
 
+    Returns
+    -------
+    StationaryResponse
+        The RMS of every response, with its unit.
+
     Raises
     ------
     ProblemError

@@ -103,6 +103,11 @@ def read_track(path: str | PathLike[str]) -> MeasuredTrack:
         ``cross_level`` is the difference of heights over the distance of the contact points 2 b, or an angle such as
         ``[mrad]``; it and ``gauge`` may be left out. Other columns are not used.
 
+    Returns
+    -------
+    MeasuredTrack
+        The track, in SI.
+
     Raises
     ------
     ProblemError

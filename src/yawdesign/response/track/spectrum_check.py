@@ -77,6 +77,11 @@ def spectrum_check(
     seed : int, optional
         Of the sample; 0 if not given.
 
+    Returns
+    -------
+    SpectrumCheck
+        Densities of the track beside those of the spectrum.
+
     Raises
     ------
     ProblemError

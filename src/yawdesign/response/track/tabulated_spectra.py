@@ -56,6 +56,11 @@ def read_spectrum(path: str | PathLike[str]) -> Spectrum:
         [m^2/(rad/m)], cross_level [rad^2/(rad/m)]``, one-sided densities, or with ``spatial_frequency [1/m]`` (cycles
         per metre) and densities per cycle, ``alignment [m^2/(1/m)]``. Other columns are not used.
 
+    Returns
+    -------
+    Spectrum
+        The spectrum, to be given to a track.
+
     Raises
     ------
     ProblemError
