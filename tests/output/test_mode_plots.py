@@ -96,7 +96,7 @@ def test_wrong_options(over_speed):
 
 def test_mode_shape_in_plan_view(modes):
     ax = yd.plot(modes, mode="frame yaw")
-    title = "Frame yaw: 9.73 Hz, damping ratio 52.4 %\n300 km/h, $C_\\mathrm{s}$ = 1 000 kN·s/m"
+    title = "Frame yaw: 9.73 Hz, damping ratio 52.4 %\n300 km/h, $C_\\mathrm{s}$ = 1 000 kN·s/m, values as written"
     assert ax.get_title("left") == title
     moved = bodies(modes, find_mode(modes, "frame yaw"))
     assert [body.kind for body in moved] == [*2 * ["wheelset"], *2 * ["motor"], "frame", *2 * ["yaw damper"]]

@@ -9,7 +9,15 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.panels import divided
-from yawdesign.output.pictures import legend_below, literal, new_axes, put_title, quantity
+from yawdesign.output.pictures import (
+    large_numbers,
+    legend_below,
+    literal,
+    new_axes,
+    put_title,
+    quantity,
+    with_condition,
+)
 from yawdesign.output.response_words import SHOWN, meaning
 from yawdesign.output.style import BEFORE, LIMIT, REST, line_of
 from yawdesign.problem import ProblemError, format_quantity
@@ -89,16 +97,19 @@ def simulation(
     shared, apart = _shared_words(names)
     unit = SHOWN[chosen[0][0].unit(names[0])][1]
     curves = [*_curves(chosen, names, apart, until)]
-    panels, head = _draw(new_axes(ax), curves, len(chosen))
+    panels, drawn, below = _draw(new_axes(ax), curves, len(chosen))
     whole = f"{_first_capital(shared)} [{unit}]"
     label = textwrap.fill(whole, SIGNS_BESIDE) if len(panels) == 1 else f"[{unit}]"
     for panel in panels:
         panel.set_ylabel(label)
     panels[-1].set_xlabel("time [s]")
-    first = f"{whole}\n" if len(panels) > 1 else ""
-    put_title(panels[0], f"{first}{_title(result, [one for _, one in chosen])}{head}", result.condition)
-    handles = panels[0].get_legend_handles_labels()[0]
-    if handles := handles if len(curves) > 1 else handles[1:]:  # a single curve is explained by the title
+    first = f"{whole}, {drawn}\n" if len(panels) > 1 else ""
+    title = with_condition(_title(result, [one for _, one in chosen]), result.condition)
+    put_title(panels[0], f"{first}{title}{below}")
+    known = {str(x.get_label()): x for panel in panels for x in panel.get_legend_handles_labels()[0]}
+    if len({curve.look["color"] for curve in curves}) == 1:  # a single curve is explained by the title
+        known = {label: x for label, x in known.items() if label not in {curve.label for curve in curves}}
+    if handles := [*known.values()]:
         legend_below(panels[-1], handles=handles)
     return panels[0]
 
@@ -129,13 +140,13 @@ def _curves(
         yield TimeCurve(history.time[shown], factor * history[name][shown], one, label, look)
 
 
-def _draw(ax: "Axes", curves: Sequence[TimeCurve], runs: int) -> tuple[list["Axes"], str]:
-    """Draw all curves; return the axes, and what the title of the first ones says besides."""
+def _draw(ax: "Axes", curves: Sequence[TimeCurve], runs: int) -> tuple[list["Axes"], str, str]:
+    """Draw all curves; return the axes, and what the title of the first ones says besides, before and below."""
     if max(curve.time[-1] for curve in curves) <= LONG:
         _draw_lines(ax, curves)
-        return [ax], ""
+        return [ax], "", ""
     if runs == 1:
-        return _draw_long(ax, curves), "; envelope, and a part in detail"
+        return _draw_long(ax, curves), "envelope and a part in detail", ""
     if len(ax.figure.axes) == 1:
         ax.figure.set_figheight(HEIGHT_OF_REST + HEIGHT_OF_PANEL * runs)  # type: ignore[union-attr]
     panels = divided(ax, rows=[1] * runs, shared=True)
@@ -149,7 +160,7 @@ def _draw(ax: "Axes", curves: Sequence[TimeCurve], runs: int) -> tuple[list["Axe
             panel.set_title(heads, loc="left", fontsize="small")
         else:
             first = heads
-    return panels, f"; envelopes\n{first}"
+    return panels, "envelopes", f"\n{first}"
 
 
 def _growth(one: "Run") -> str:
@@ -167,6 +178,7 @@ def _draw_lines(ax: "Axes", curves: Sequence[TimeCurve]) -> None:
 def _over_time(ax: "Axes", curves: Sequence[TimeCurve]) -> None:
     ax.axhline(0, color=LIMIT, linewidth=0.6, zorder=1)
     ax.grid()
+    large_numbers(ax.yaxis)
     ax.set_xlim(0, max(curve.time[-1] for curve in curves))
     for curve in curves:
         _growing(ax, curve)

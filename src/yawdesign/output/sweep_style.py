@@ -6,7 +6,7 @@ import numpy as np
 
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.branches import CriticalColumn
-from yawdesign.output.pictures import large_numbers, literal, log_axis, wrapped
+from yawdesign.output.pictures import large_numbers, literal, log_axis, quantity, wrapped
 from yawdesign.output.regions import Line, chained
 from yawdesign.output.style import AS_WRITTEN, critical_line
 from yawdesign.problem import to_unit
@@ -35,6 +35,7 @@ LABELS = {
 }
 LIMIT_TEXT = r"$C_\mathrm{su}$, limit of the curve"
 ACROSS, UPRIGHT = 66, 34  # signs of a label in one line
+OF_ONE_DAMPER = ("stable", "decay_rate", "damping_ratio", "critical_speed")  # what holds for one value of C_s
 DECADES = 1000.0  # of a logarithmic scale, below its largest value
 WIDE = 30.0  # ratio of values from which on a logarithmic scale reads better
 
@@ -51,6 +52,9 @@ def title(sweep: Sweep) -> str:
     if problem.car_body is not None:
         parts.append("car body moving")
     parts.append(literal(sweep.conditions))
+    C_s = problem.parameters().get("C_s")
+    if sweep.quantity in OF_ONE_DAMPER and C_s is not None and "C_s" not in {*names, *sweep.provenance.get("at", {})}:
+        parts.append(quantity("C_s", float(C_s)))
     for name, value in sweep.provenance.get("at", {}).items():
         parts.append(
             f"${ROWS[name].symbol}$ = {to_unit(value, ROWS[name].unit):.4g} {ROWS[name].unit.strip('-')}".strip()
