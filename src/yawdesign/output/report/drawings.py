@@ -1,5 +1,6 @@
 """Pictures that stand in this page only: bars by name, marks on maps, two curves beside each other."""
 
+import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -18,11 +19,13 @@ BAR, LINE, AROUND = (
     0.16,
     1.0,
 )  # heights [inch] of a bar, a line of its name, and of what stands around all of them
+SIGNS, LINES = 44, 3  # of a name: in a line, and how many lines are shown of what users name at length
 ROOM = 0.2  # for the numbers beside the bars, in the width of the picture
 
 
 def bars(names: Sequence[str], values: Sequence[float], label: str, texts: Sequence[str]) -> "Axes":
     """Draw values by name, the first on top: those below zero hatched, each with its number."""
+    names = ["\n".join(map(_shortened, name.split("\n"))) for name in names]
     with own_texts():
         ax = new_axes(None)
         lines = max(name.count("\n") for name in names) + 1
@@ -44,6 +47,10 @@ def bars(names: Sequence[str], values: Sequence[float], label: str, texts: Seque
         low, high = min(0.0, *values), max(0.0, *values)
         ax.set_xlim(low - ROOM * (high - low) * (low < 0), high + ROOM * (high - low) * (high > 0))
     return ax
+
+
+def _shortened(name: str) -> str:
+    return "\n".join(textwrap.wrap(name, SIGNS, max_lines=LINES, placeholder=" ..."))
 
 
 MARKS: dict[str, dict[str, Any]] = {
