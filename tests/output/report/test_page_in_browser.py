@@ -1,11 +1,14 @@
 """The page in a real browser: nothing overlaps or is cut off, nothing is asked of a network, the script may run."""
 
 import json
+from pathlib import Path
 
 import pytest
 
 pytestmark = pytest.mark.slow
-WIDTHS = (1280, 820, 400)
+WIDTHS = (1280, 820, 390)
+A4 = 680  # of a sheet between its margins, in CSS pixels
+TEXTS = (Path(__file__).parent / "text_places.js").read_text(encoding="utf-8")
 # Parts of a section that share a place, and what reaches beyond the page.
 FAULTS = """
 (() => {
@@ -50,6 +53,30 @@ def test_an_overlap_and_a_wide_part_would_be_seen(page):
     page.evaluate("for (const x of document.querySelectorAll('h2, figure')) x.removeAttribute('style')")
     assert "overlaps" in told
     assert "cut off" in told
+
+
+@pytest.mark.parametrize(("kind", "width"), [*(("screen", width) for width in WIDTHS), ("print", A4)])
+def test_every_text_can_be_read(page, kind, width):
+    page.resize(width, 1000)
+    page.media(kind)
+    page.drawn()
+    told = page.evaluate(TEXTS)
+    page.media("screen")
+    assert told == []
+
+
+def test_texts_that_cannot_be_read_would_be_seen(page):
+    page.resize(820, 1000)
+    page.evaluate("document.querySelector('figcaption').style.marginTop = '-30px'")
+    page.evaluate("document.querySelector('figcaption + *, section p').style.position = 'absolute'")
+    page.evaluate("document.querySelector('svg[role] g[id*=text_]').style.transform = 'translate(-200px)'")
+    page.evaluate("document.querySelector('h3').textContent = ''")
+    told = " ".join(page.evaluate(TEXTS))
+    page.send("Page.reload")
+    page.wait("document.readyState === 'complete' && !document.getElementById('live').hidden")
+    assert " on '" in told
+    assert "is cut off" in told
+    assert "is empty" in told
 
 
 def test_nothing_is_asked_of_a_network_and_nothing_is_forbidden(page):

@@ -1,5 +1,6 @@
 """Pictures that stand in this page only: bars by name, marks on maps, two curves beside each other."""
 
+import textwrap
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +20,7 @@ BAR, LINE, AROUND = (
     0.16,
     1.0,
 )  # heights [inch] of a bar, a line of its name, and of what stands around all of them
+SIGNS, LINES = 44, 3  # of a name: in a line, and how many lines are shown of what users name at length
 ROOM = 0.2  # for the numbers beside the bars, in the width of the picture
 
 
@@ -27,6 +29,7 @@ def bars(names: Sequence[str], values: Sequence[float], label: str, texts: Seque
 
     Those below zero are hatched, as what they are: `below` is the colour of an area or `LESS`.
     """
+    names = ["\n".join(map(_shortened, name.split("\n"))) for name in names]
     with own_texts():
         ax = new_axes(None)
         negative = style.LESS_BAR if below == style.LESS else style.area(below)
@@ -55,6 +58,10 @@ def bars(names: Sequence[str], values: Sequence[float], label: str, texts: Seque
         low, high = min(0.0, *values), max(0.0, *values)
         ax.set_xlim(low - ROOM * (high - low) * (low < 0), high + ROOM * (high - low) * (high > 0))
     return ax
+
+
+def _shortened(name: str) -> str:
+    return "\n".join(textwrap.wrap(name, SIGNS, max_lines=LINES, placeholder=" ..."))
 
 
 MARKS: dict[str, dict[str, Any]] = {
