@@ -1,11 +1,13 @@
 """Pictures of modes: what is drawn, with which units, and files that move."""
 
 import io
+import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from PIL import Image
 from rich.console import Console
 
@@ -14,6 +16,7 @@ from yawdesign.output.animation import FRAMES, gif, svg
 from yawdesign.output.mode_plots import mode_paths
 from yawdesign.output.mode_tables import modes_tables
 from yawdesign.output.plan_view import bodies, extent, find_mode
+from yawdesign.output.root_locus import _arrow
 from yawdesign.problem.parameters import CarBody
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -38,7 +41,7 @@ def test_root_locus(over_damping):
     ax = yd.plot(over_damping)
     assert ax.get_xlabel() == "real part [1/s]"
     assert ax.get_ylabel() == "frequency [Hz]"
-    assert legend(ax) == ["10 kN·s/m", "100, 1000 kN·s/m", "5000 kN·s/m"]
+    assert legend(ax) == ["10 kN·s/m", "100, 1 000 kN·s/m", "5 000 kN·s/m"]
     texts = {text.get_text() for text in ax.texts}
     assert {"unstable", "wheelset hunting 1", "frame yaw", "yaw damper relaxation"} <= texts
     assert "300 km/h" in ax.get_title("left").replace("\n", " ")
@@ -238,3 +241,20 @@ def test_animate_looks_at_the_file_and_the_mode_before_it_draws(modes, tmp_path,
     ):
         with pytest.raises(yd.ProblemError, match=message):
             yd.animate(modes, tmp_path / name, mode=mode)
+
+
+def test_letters_of_a_wide_svg_are_larger(modes, vehicle):
+    def size(found):
+        image = svg(found).decode()
+        width = float(re.search(r'viewBox="\S+ \S+ (\S+) ', image)[1])
+        return float(re.search(r'font-size="([\d.]+)"', image)[1]) / width
+
+    assert size(yd.modes(vehicle)) > 0.6 * size(modes)
+
+
+def test_no_arrow_stands_where_a_path_has_left_the_picture():
+    ax = Figure().add_subplot()
+    ax.set(xlim=(-10, 0), ylim=(-1, 10))
+    away = np.array([[-9.0, 0.0], [-9.5, 0.0], [-20.0, 5.0], [-9.0, 9.0], [-5.0, 9.0], [-1.0, 9.0]])
+    _arrow(ax, away, "black")
+    assert ax.texts[0].xyann[1] == pytest.approx(9.0)

@@ -6,10 +6,13 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
+from matplotlib.path import Path
+from matplotlib.transforms import Affine2D
 
 import yawdesign as yd
 from yawdesign.output import style
 from yawdesign.output.branches import CriticalColumn, curves, partners, stable_areas
+from yawdesign.output.contours import draw_contours
 
 PRINTED = yd.table1(equations="as-printed")
 
@@ -216,3 +219,22 @@ def test_optimum():
     assert "2 593 kN·s/m" in notes(ax)
     with pytest.raises(yd.ProblemError, match="nothing to draw"):
         yd.plot(dataclasses.replace(best, margin=None))
+
+
+def test_no_value_of_a_map_is_left_white():
+    values = np.geomspace(0.02, 8.0, 400).reshape(20, 20)
+    values[0, 0] = 0.001
+    x = np.arange(20.0)
+    ax = Figure().add_subplot()
+    whole = [Path.unit_rectangle().transformed(Affine2D().scale(19.0))]
+    steps = draw_contours(ax, x, x, values, whole, signed=True)
+    assert steps.levels[0] > values.min()  # a few values lie below the lowest step
+    assert any(path.contains_point((0.1, 0.1)) for path in steps.get_paths())
+
+
+def test_every_end_of_an_interval_is_told():
+    problem = PRINTED.replace(conditions={"lambda": np.linspace(0.05, 0.4, 5).tolist()})
+    ax = drawn(yd.design(problem))
+    rows = sum(start > ax.get_xlim()[0] for row, start, _ in bars(ax, style.STABLE) if row)
+    told = [note for note in ax.texts if note.get_text().replace(" ", "").replace(".", "").isdigit()]
+    assert len(told) >= rows > 2

@@ -36,8 +36,9 @@ FRAMES, PERIOD = 24, 1.6  # pictures and seconds of a cycle
 FILM_DOTS = 120  # of the pictures, in an inch: 960 beside each other
 SIGN = 6.5  # width of a letter in the SVG
 SCALE, LINE = 100.0, 16  # units of the SVG in a metre, and in a line of text
+WIDE = 640.0  # of an SVG: in a wider one letters are larger
 INK = "currentColor"  # of the page around it; black where it stands alone
-C_S = '<tspan font-style="italic">C</tspan><tspan dy="3" font-size="9">s</tspan><tspan dy="-3"> </tspan>'
+C_S = '<tspan font-style="italic">C</tspan><tspan dy="3" font-size="75%">s</tspan><tspan dy="-3"> </tspan>'
 
 SCRIPT = """(function () {
   var svg = document.currentScript.closest("svg"), parts = svg.querySelectorAll("g[data-y]");
@@ -142,17 +143,17 @@ def _svg(result: Modes, mode: NamedMode) -> str:
     shown, length = bodies(result, mode), SCALE * half_size(p)[0]
     rails = [_line(-length, length, side * SCALE * p["b"]) for side in (1, -1)]
     at_rest = [_group(body, f'fill="none" stroke="{REST}"') for body in shown]
-    middle = (left + right) / 2
+    middle, large = (left + right) / 2, max(1.0, (right - left) / WIDE)
     point = subtitle(result).replace(f"${PARAMETERS['C_s'].symbol}$ ", C_S)
     head = [*filter(None, (caption(mode), point, plain_text(other_condition_in_words(result.condition))))]
     texts = [
-        *(_text(middle, -top - 4 - LINE * k, line) for k, line in enumerate(reversed(head))),
-        *(_text(SCALE * x, -SCALE * y, text) for x, y, text in labels(p)),
-        _text(middle, -bottom + 8, f"{scale_note(p)}; direction of travel: to the right →"),
-        *_legend(shown, middle, -bottom + 14),
+        *(_text(middle, -top - large * (4 + LINE * k), line, large) for k, line in enumerate(reversed(head))),
+        *(_text(SCALE * x, -SCALE * y, text, large) for x, y, text in labels(p)),
+        _text(middle, -bottom + 8 * large, f"{scale_note(p)}; direction of travel: to the right →", large),
+        *_legend(shown, middle, -bottom + 14 * large, large),
     ]
-    height = top - bottom + 24 + LINE * (len(head) + 1)
-    box = f"{left:.1f} {-top - 4 - LINE * len(head):.1f} {right - left:.1f} {height:.1f}"
+    height = top - bottom + large * (24 + LINE * (len(head) + 1))
+    box = f"{left:.1f} {-top - large * (4 + LINE * len(head)):.1f} {right - left:.1f} {height:.1f}"
     size = f'width="{right - left:.0f}" height="{height:.0f}" style="max-width:100%;height:auto"'
     script = SCRIPT.replace("PERIOD", f"{PERIOD}").replace("REAL", "true" if mode.frequency == 0 else "false")
     return "\n".join(
@@ -169,19 +170,20 @@ def _svg(result: Modes, mode: NamedMode) -> str:
     )
 
 
-def _legend(shown: Sequence[Body], middle: float, top: float) -> Iterator[str]:
+def _legend(shown: Sequence[Body], middle: float, top: float, large: float) -> Iterator[str]:
     """Yield a row of marks with the names of what they stand for."""
     kinds = [*dict.fromkeys(body.kind for body in shown)]
-    widths = [SIGN * len(kind) + 26 for kind in kinds]
+    widths = [large * (SIGN * len(kind) + 26) for kind in kinds]
     for k, kind in enumerate(kinds):
         x = middle - sum(widths) / 2 + sum(widths[:k])
         opacity = next(body.opacity for body in shown if body.kind == kind)
-        yield f'<rect x="{x:.1f}" y="{top:.1f}" width="14" height="10" {_fill(kind, opacity)}/>'
-        yield _text(x + 18, top + 9, kind, "start")
+        size = f'width="{14 * large:.1f}" height="{10 * large:.1f}"'
+        yield f'<rect x="{x:.1f}" y="{top:.1f}" {size} {_fill(kind, opacity)}/>'
+        yield _text(x + 18 * large, top + 9 * large, kind, large, "start")
 
 
-def _text(x: float, y: float, text: str, anchor: str = "middle") -> str:
-    style = f'text-anchor="{anchor}" font-size="12" font-family="sans-serif" fill="{INK}"'
+def _text(x: float, y: float, text: str, large: float, anchor: str = "middle") -> str:
+    style = f'text-anchor="{anchor}" font-size="{12 * large:.1f}" font-family="sans-serif" fill="{INK}"'
     return f'<text x="{x:.1f}" y="{y:.1f}" {style}>{text}</text>'
 
 

@@ -30,7 +30,7 @@ LOWEST_ROW, AROUND = 13.0, 75.0  # [pt], in which a condition can still be read;
 SIGNS_OF_ROW, LETTER = 38, 5.0  # of a condition's name, and their width [pt]
 
 
-def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
+def draw_design(result: "ForwardDesign", ax: "Axes | None" = None, *, beside: Sequence[float] = ()) -> "Axes":
     """Draw the stable intervals of the yaw damping, its critical values, the curve's limit and the choice.
 
     Parameters
@@ -39,6 +39,8 @@ def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
         Of `yawdesign.design`.
     ax : matplotlib.axes.Axes, optional
         Where to draw; 7 x 2.2 inch are enough. Of many conditions those are drawn for which there is room.
+    beside : sequence of float
+        Other values of C_s that the axis has room for [N s/m].
     """
     rows = _rows(result)
     given, ax = ax, new_axes(ax)
@@ -47,7 +49,7 @@ def draw_design(result: "ForwardDesign", ax: "Axes | None" = None) -> "Axes":
         figure.set_size_inches(figure.get_figwidth(), HEIGHT + ROW * len(rows))
     else:
         rows = _nearest(result, rows, int((_points(ax) - AROUND) / LOWEST_ROW) - 1)
-    low, high = _ends(result)
+    low, high = _ends(result, beside)
     ax.set(xlim=(low, high), xlabel=r"damping of the pair of yaw dampers $C_\mathrm{s}$ [kN·s/m]")
     log_axis(ax)
     every = "every condition" if len(_conditions(result)) > 1 else ""
@@ -85,8 +87,9 @@ def _damping(value: float) -> str:
     return format_quantity(value, "kN·s/m", 4)
 
 
-def _ends(result: "ForwardDesign") -> tuple[float, float]:
-    marks = [x.C_s for x in critical_shown(result)] + [x for x in (result.C_su, result.C_s) if x is not None and x > 0]
+def _ends(result: "ForwardDesign", beside: Sequence[float]) -> tuple[float, float]:
+    marks = [x.C_s for x in critical_shown(result)]
+    marks += [x for x in (result.C_su, result.C_s, *beside) if x is not None and x > 0]
     marks = [x * DAMPING for x in marks] or [1000.0]
     return min(marks) / ASIDE, max(marks) * ASIDE
 

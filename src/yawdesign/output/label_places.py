@@ -17,6 +17,7 @@ SIZE, SPACING = 8.33, 1.3  # of the letters [points], and from line to line rela
 LEADER = 0.04  # from a curve's end to its name beside the axes, relative to the width of these
 REACHES = (7.0, 14.0, 22.0, 32.0, 45.0, 60.0, 80.0)  # how far from a curve a name may stand [points]
 DIRECTIONS = tuple(np.deg2rad(x) for x in (0, 90, 270, 180, 45, 315, 135, 225, 20, 340, 160, 200, 70, 290, 110, 250))
+FAR = 40.0  # from where on distance is worse than a crossing [points]
 ROOM = 2.0  # around a name [points]
 STEP, MOST_STEPS = 4.0, 500  # along a curve [pixels]
 
@@ -128,7 +129,7 @@ class _Places:
         ):
             away = np.array([np.cos(angle), np.sin(angle)])
             middle = anchor + away * reach * self.point + np.sign(np.round(away, 2)) * np.array([width, height]) / 2
-            found.append((reach + 3 * k, anchor, middle))
+            found.append((reach * (1 + reach / FAR) + 3 * k, anchor, middle))
         return sorted(found, key=lambda choice: choice[0])
 
     def _cost(self, anchor: Float, middle: Float, width: float, height: float, most: float) -> float:

@@ -40,6 +40,15 @@ VARIABLES = {
 }
 
 
+def page_colours() -> str:
+    """Return the part of a page's style sheet that sets its colours, for light and dark screens."""
+    light, dark = (
+        f":root {{ color-scheme: {scheme}; {' '.join(f'--{name}: {colour};' for name, colour in colours.items())} }}"
+        for scheme, colours in (("light", style.PAGE), ("dark", style.DARK))
+    )
+    return f"{light}\n@media screen and (prefers-color-scheme: dark) {{ {dark} }}\n"
+
+
 def text(value: str) -> str:
     """Return a text as HTML shows it letter by letter, without touching the direction of what stands around it.
 

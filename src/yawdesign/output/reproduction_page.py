@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from yawdesign.output.markup import picture, plain_text, tables, text
+from yawdesign.output.markup import page_colours, picture, plain_text, tables, text
 from yawdesign.output.reproduction_tables import HEADS, cells, sections, verdict
 
 if TYPE_CHECKING:
@@ -26,22 +26,16 @@ SHOWS = {
 COLUMNS = (*HEADS, "why", "checked by")
 NUMBERS = {"printed", "computed", "deviation [%]"}
 STYLE = """
-:root { color-scheme: light dark; --ink: #1b1f24; --paper: #ffffff; --line: #d5d9de; --quiet: #5b6770; --bad: #b2182b }
-@media screen and (prefers-color-scheme: dark) {
-  :root { --ink: #e6e9ed; --paper: #16191d; --line: #3a4149; --quiet: #a4adb7; --bad: #ff8a80;
-    --stable: #1f3a2a; --unstable: #4a2620; --unknown: #3a3f45; --grid: #3a4149; --chosen: #8ab4ff;
-    --becomes-stable: #6fcf97; --becomes-unstable: #ff8a80; --becomes-neither: #a4adb7; --series-0: #8ab4ff }
-}
 body { font: 15px/1.45 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; color: var(--ink); background: var(--paper);
   max-width: 76rem; margin: 0 auto; padding: 1.5rem }
 h1 { font-size: 1.6rem; margin: 0 0 .3rem } h2 { font-size: 1.15rem; margin: 2rem 0 .5rem }
-p { margin: .3rem 0 } .quiet { color: var(--quiet) } .bad { color: var(--bad); font-weight: 600 }
+p { margin: .3rem 0 } .quiet { color: var(--soft) } .bad { color: var(--bad); font-weight: 600 }
 .wide { overflow-x: auto } figure { margin: 1rem 0; max-width: 46rem } svg { width: 100%; height: auto }
 table { border-collapse: collapse; font-size: .82rem; width: 100% }
 th, td { text-align: left; padding: .25rem .5rem; border-bottom: 1px solid var(--line); vertical-align: top }
 thead th { border-bottom: 2px solid var(--ink) } tbody th { font-weight: 500; min-width: 15rem }
 .number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap }
-td.words { min-width: 9rem } td.why { min-width: 11rem; color: var(--quiet) }
+td.words { min-width: 9rem } td.why { min-width: 11rem; color: var(--soft) }
 @media print {
   @page { size: A4 landscape; margin: 12mm } body { padding: 0; font-size: 10px; max-width: none }
   table { font-size: 8px } thead { display: table-header-group } tr, figure { break-inside: avoid }
@@ -56,7 +50,7 @@ def page(result: "Reproduction", pictures: Mapping[str, tuple[str, "Axes"]]) -> 
         [
             '<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">',
             '<meta name="viewport" content="width=device-width, initial-scale=1">',
-            f"<title>{plain_text(TITLE)}</title><style>{STYLE}</style></head><body><main>",
+            f"<title>{plain_text(TITLE)}</title><style>{page_colours()}{STYLE}</style></head><body><main>",
             f'<h1>{TITLE}</h1><p class="quiet">{plain_text(PAPER)}</p>',
             *(tables(line) for line in verdict(result)),
             *_sections(result, pictures),

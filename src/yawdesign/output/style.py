@@ -55,6 +55,54 @@ AS_WRITTEN: dict[str, Any] = {
     "zorder": 6,
 }
 
+# Colours of pages by the names of variables of their style sheets; on a dark screen those of pictures, too.
+PAGE = {
+    "ink": LIMIT,
+    "paper": HALO,
+    "soft": "#4a525a",
+    "line": GRID,
+    "shade": "#f4f6f8",
+    "link": CHOSEN,
+    "good": "#14602f",
+    "good-back": "#e3f2e8",
+    "bad": "#a01622",
+    "bad-back": "#fbe6e2",
+    "doubt": "#6b5200",
+    "doubt-back": EXCLUDED,
+}
+DARK = {
+    "ink": "#e8eaed",
+    "paper": "#14171b",
+    "soft": "#b3bac2",
+    "line": "#3c434b",
+    "shade": "#1e2329",
+    "link": "#8fb8ff",
+    "good": "#7fd69b",
+    "good-back": "#16301f",
+    "bad": "#ff9d92",
+    "bad-back": "#3a1a18",
+    "doubt": "#f0d070",
+    "doubt-back": "#352c10",
+    "stable": "#1d3a2a",
+    "unstable": "#4a2622",
+    "unknown": "#3a3d41",
+    "excluded": "#3d3618",
+    "hatch": "#a3685d",
+    "chosen": "#8fb8ff",
+    "before": "#aab3bb",
+    "grid": "#343a42",
+    "rest": "#59616a",
+    "becomes-stable": "#7fd69b",
+    "becomes-unstable": "#ff8f85",
+    "becomes-neither": "#b0b0b0",
+    "series-0": "#8fb8ff",
+    "series-1": "#ff9d4d",
+    "series-2": "#4fd1ab",
+    "series-3": "#c9a3e6",
+    "series-4": "#aab3bb",
+    "series-5": "#e0be4a",
+}
+
 SETTINGS: dict[str, Any] = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],  # comes with Matplotlib: every machine sets the same

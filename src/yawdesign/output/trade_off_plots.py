@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 FRONT, PANEL = 4.6, 1.45  # heights [inch]
 UNITS = {"decay_rate": ("least decay rate", "1/s", 1.0), "damping_ratio": ("least damping ratio", "%", 100.0)}
 MARKS = (("golden", "D", "golden section, other variables as written"), ("written", "s", "design as written"))
+BESIDE = 0.05  # from the limit to the end of the axis, of its length
 WITHIN = 1 + 1e-9  # times the limit of the curve: a design at the limit keeps it
 
 
@@ -112,6 +113,7 @@ def _along(result: "TradeOff", key: str, factor: float) -> tuple[list[float], li
 def _limit(result: "TradeOff", ax: "Axes", *, labels: bool) -> None:
     """Draw the limit of the curve, and hatch what is beyond it."""
     low, high = ax.get_xlim()
+    high = max(high, result.limit + BESIDE * (result.limit - low))
     line = ax.axvline(result.limit, **LIMIT_LINE)
     if high > result.limit:
         beyond = span(ax, max(low, result.limit), high, EXCLUDED)

@@ -37,7 +37,9 @@ def _table(result: "TradeOff", points: Points) -> Table:
     names = result.variables or tuple(name for name in ("C_s", "K_m", "C_m") if points[0][1][name] is not None)
     units = {name: PARAMETERS[name].unit for name in names}
     columns = ("T/(4Qa)", MARGINS[result.objective], *(f"{name}\n[{unit}]" for name, unit in units.items()))
-    table = titled(f"{len(result.front)} points, each the best found with its resistance", "", *columns, "stable")
+    count = len(result.front)
+    head = f"{count} points, each" if count > 1 else "1 point,"
+    table = titled(f"{head} the best found with its resistance", "", *columns, "stable")
     for column in table.columns:
         column.no_wrap, column.overflow = True, "fold"  # a number that is cut off would be another one
     for name, point in points:

@@ -265,7 +265,7 @@ def _maps(problem: Problem, optimum: Optimum, told: _Told) -> dict[str, Any]:
         ),
         "wear": told("conicity and creep", 0.03, lambda part: swept(problem, objective, wear.items(), progress=part)),
     }
-    if problem.bogie.kind == "power":
+    if problem.bogie.kind == "power" and problem.parameters()["K_m"]:  # without it there is no frequency
         axes = review_axes.mounts(problem, cells)
         found["mounts"] = told(
             "motor mounts", 0.03, lambda part: swept(problem, objective, axes.items(), progress=part)

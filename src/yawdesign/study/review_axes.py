@@ -1,6 +1,6 @@
 """Over which values the pictures of a design review go: speeds, dampings, conicities, motor mounts around a design."""
 
-from math import pi, sqrt
+from math import inf, pi, sqrt
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from yawdesign.study.axes import damping_ratio
 SPEEDS = (0.15, 1.5)  # of the highest speed that the problem names
 BESIDE = (1 / 30, 30.0)  # of a damping that has no bounds
 MOUNTS = (1 / 3, 3.0)  # of a motor mount that has no bounds
+USUAL = {"C_s": (1e4, 1e7), "K_m": (6e4, 6e6), "C_m": (2e3, 2e5)}  # where there is none, zero being on no such axis
+DECADES, RATIOS = 1e3, (0.005, 0.75, 3.0)  # above a bound that is zero; damping ratios: least, most of the first, most
 CONICITIES, CREEP_FACTORS = (0.02, 0.5), (0.4, 1.0)
 
 
@@ -44,7 +46,7 @@ def creep_factors(problem: Problem, count: int) -> Float:
 def mount(problem: Problem) -> tuple[float, float]:
     """Return frequency [Hz] and damping ratio [-] of a motor suspension, eq. (12)."""
     p = {name: float(x) for name, x in problem.parameters().items()}
-    return sqrt(p["K_m"] / p["M_m"]) / (2 * pi), damping_ratio(p)
+    return sqrt(p["K_m"] / p["M_m"]) / (2 * pi), damping_ratio(p) if p["K_m"] else inf
 
 
 def _around(problem: Problem, name: str, usual: tuple[float, float]) -> tuple[float, float]:
@@ -62,16 +64,17 @@ def mounts(problem: Problem, count: int) -> dict[str, Float]:
     K, C = _reach(problem, "K_m", MOUNTS), _reach(problem, "C_m", MOUNTS)
     low, high = (sqrt(x / p["M_m"]) / (2 * pi) for x in K)
     ratios = [damping_ratio({**p, "C_m": c, "K_m": k}) for c, k in zip(C, reversed(K), strict=True)]
+    least = min(max(ratios[0], RATIOS[0]), RATIOS[1])
     return {
         "f_m": np.geomspace(low, high, count),
-        "xi_m": np.geomspace(max(ratios[0], 0.005), min(ratios[1], 3.0), count),
+        "xi_m": np.geomspace(least, max(min(ratios[1], RATIOS[2]), RATIOS[2] / RATIOS[1] * least), count),
     }
 
 
 def _reach(problem: Problem, name: str, beside: tuple[float, float]) -> tuple[float, float]:
-    """Return the bounds of a design variable, or values around the one that is given."""
+    """Return the bounds of a design variable, or values around the one that is given; they rise and are above zero."""
     if name in problem.design.variables:
         bounds = problem.design.variables[name]
-        return float(bounds.min), float(bounds.max)
+        return float(bounds.min) or float(bounds.max) / DECADES, float(bounds.max)
     own = float(problem.parameters()[name])
-    return own * beside[0], own * beside[1]
+    return (own * beside[0], own * beside[1]) if own else USUAL[name]

@@ -5,7 +5,6 @@ import hashlib
 import re
 from dataclasses import replace
 from html.parser import HTMLParser
-from importlib.resources import files
 from itertools import pairwise
 from pathlib import Path
 
@@ -14,6 +13,7 @@ from typer.testing import CliRunner
 
 import yawdesign as yd
 from yawdesign.cli import app
+from yawdesign.output import style
 from yawdesign.output.report import browser_print, condition_sections, design_sections, motion_sections, verdict
 from yawdesign.output.report.page import page
 from yawdesign.output.report.report import origin
@@ -65,8 +65,8 @@ def test_it_needs_nothing_but_itself(html, read):
         for key in ("src", "href", "xlink:href", "action", "poster", "srcset"):
             assert given.get(key, "#").startswith(("#", "data:")), (tag, key, given[key])
         assert tag not in {"iframe", "object", "embed", "base", "form"}
-    for style, text in read.all("style"):
-        assert "@import" not in text, style
+    for sheet, text in read.all("style"):
+        assert "@import" not in text, sheet
         assert all(place.startswith("#") for place in re.findall(r"url\([\"']?(.)", text))
     assert len(html.encode()) < LARGEST
 
@@ -191,11 +191,7 @@ def contrast(one, other):
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_texts_and_lines_stand_out(scheme):
-    css = files("yawdesign.output.report").joinpath("page.css").read_text(encoding="utf-8")
-    light, dark = (
-        dict(re.findall(r"--([\w-]+): (#\w{6})", part)) for part in css.split("prefers-color-scheme: dark", 1)
-    )
-    colours = light if scheme == "light" else {**light, **dark}
+    colours = style.PAGE if scheme == "light" else {**style.PAGE, **style.DARK}
     for name in ("ink", "soft", "link", "good", "bad"):
         assert contrast(colours[name], colours["paper"]) >= LEAST_CONTRAST, name
         assert contrast(colours[name], colours["shade"]) >= LEAST_CONTRAST, name

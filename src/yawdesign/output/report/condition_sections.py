@@ -86,7 +86,7 @@ def chart(review: "DesignReview") -> Section | None:
 
 
 def _under(sweep: Any) -> str:
-    return f"under {sweep.conditions}" if sweep.conditions else "with all else as designed"
+    return f"for {sweep.conditions}" if sweep.conditions else "with all else as designed"
 
 
 def wear(review: "DesignReview") -> Section | None:

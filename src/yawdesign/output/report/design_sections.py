@@ -26,7 +26,7 @@ SHOWN, LINE = 12, 34  # sensitivities, signs of a name in a line
 def intervals(review: "DesignReview") -> Section:
     """Return where the yaw damping is stable, and where the design lies in that."""
     forward, chosen = review.forward, review.optimum.C_s
-    axes = plot(forward)
+    axes = plot(forward, beside=[chosen] if chosen else [])
     if chosen is not None:
         text = f"{format_quantity(chosen, 'kN·s/m', 4)}, this design"
         marked(axes, "design", [(to_unit(chosen, "kN·s/m"), 0.5)], label=text, transform=axes.get_xaxis_transform())
@@ -104,14 +104,12 @@ def front(review: "DesignReview") -> Section | None:
     """Return how much margin each rotational resistance allows."""
     if review.front is None:
         return None
-    first, last = review.front.front[0], review.front.front[-1]
-    told = "From {:.4f} with {} to {:.4f} with {}, in {} points.".format(
-        first["rotational_resistance"],
-        margin(first["margin"], review.front.objective),
-        last["rotational_resistance"],
-        margin(last["margin"], review.front.objective),
-        len(review.front.front),
+    points = review.front.front
+    first, last = (
+        f"{point['rotational_resistance']:.4f} with {margin(point['margin'], review.front.objective)}"
+        for point in (points[0], points[-1])
     )
+    told = f"From {first} to {last}, in {len(points)} points." if len(points) > 1 else f"One point: {first}."
     drawn = figure(plot(review.front), "front-picture", "Margin over rotational resistance", told)
     return Section("front", "Margin against rotational resistance", drawn + tables(trade_off_tables(review.front)))
 
@@ -141,15 +139,22 @@ def _sensitivities(review: "DesignReview") -> Iterator[str]:
         axes = bars(
             names, values, "change of $C_\\mathrm{sl}$ for 1 % more [%]", [f"{x:+.3g}" for x in values], style.LESS
         )
-        told = f"1 % more of {largest[0][0]} changes C_sl by {values[0]:+.3g} %, of the others by less."
+        told = f"1 % more of {_meant(largest[0][0])} changes C_sl by {values[0]:+.3g} %, of the others by less."
         yield figure(axes, "tornado", "Sensitivities of the least stable yaw damping", told)
     if review.uncertainty is not None:
         yield from _uncertain(review.uncertainty)
 
 
 def _named(name: str) -> str:
-    meaning = PARAMETERS[name].meaning if name in PARAMETERS else "running speed"
-    return textwrap.fill(f"{name}: {meaning}", LINE)
+    return textwrap.fill(f"{name}: {_meaning(name)}", LINE)
+
+
+def _meant(name: str) -> str:
+    return f"{name} ({_meaning(name)})"
+
+
+def _meaning(name: str) -> str:
+    return PARAMETERS[name].meaning if name in PARAMETERS else "running speed"
 
 
 def _uncertain(result: Any) -> Iterator[str]:

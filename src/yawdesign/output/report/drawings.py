@@ -65,9 +65,17 @@ MARKS: dict[str, dict[str, Any]] = {
 
 
 def marked(ax: "Axes", kind: str, points: Sequence[tuple[float, float]], **more: Any) -> "Axes":
-    """Mark points of a picture by the sign of a kind, one of `MARKS`; `more` goes to Matplotlib."""
+    """Mark points of a picture by the sign of a kind, one of `MARKS`; `more` goes to Matplotlib.
+
+    Points outside the axes are left out: a sign that stands there takes the room of the whole picture.
+    """
+    (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+    whole = "transform" in more  # whose ordinate is a share of the axes
+    inside = [(x, y) for x, y in points if left <= x <= right and (whole or low <= y <= high)]
+    if not inside:
+        return ax
     with own_texts():
-        x, y = zip(*points, strict=True)
+        x, y = zip(*inside, strict=True)
         ax.plot(x, y, linestyle="none", zorder=5, clip_on=False, **MARKS[kind], **more)
         if "label" in more:
             legend_below(ax)

@@ -163,7 +163,7 @@ function drawFrame(top, upward) {
   drawn(plane, "rect", { class: "hatched", ...half });
   for (let x = LEFT; x <= RIGHT; x += 5) {
     drawn(plane, "line", { class: "grid", x1: across(x), x2: across(x), y1: MARGIN.top, y2: base });
-    drawn(plane, "text", { x: across(x), y: base + 15, "text-anchor": "middle" }, digits(x));
+    drawn(plane, "text", { x: across(x), y: base + 19, "text-anchor": "middle" }, digits(x));
   }
   for (let k = 0; k <= 4; k++) {
     const height = upward((top * HERTZ * k) / 4);

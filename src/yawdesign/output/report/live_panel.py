@@ -68,6 +68,7 @@ PAGE = """\
 <p>Decay rate and damping ratio are the least over the modes that a design variable moves.</p>
 <svg viewBox="0 0 600 78" role="img" aria-labelledby="live-axis-title live-intervals">
 <title id="live-axis-title">Stable intervals of C_s [kN\u00b7s/m], and C_s</title>
+<desc>Stable where it is plain, unstable where it is hatched; the line is C_s. In words they stand above.</desc>
 <defs><pattern id="live-hatch" width="7" height="7" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">\
 <path class="hatch" d="M0 0v7"/></pattern></defs><g id="live-axis-drawn"></g></svg>
 <svg viewBox="0 0 600 300" role="img" aria-labelledby="live-plane-title live-plane-description">

@@ -86,7 +86,7 @@ def _head(title: str, main: str) -> str:
             '<meta name="referrer" content="no-referrer">',
             '<link rel="icon" href="data:,">',
             f"<title>{markup.plain_text(title)}</title>",
-            f"<style>{style}</style>",
+            f"<style>{markup.page_colours()}{style}</style>",
         ]
     )
 

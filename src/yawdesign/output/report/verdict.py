@@ -169,8 +169,9 @@ def _parameters(problem: Problem) -> Iterator[Any]:
     of_body = set(problem.car_body.parameters()) - set(problem.bogie.parameters()) if problem.car_body else set()
     columns = "", "value", "Table I"
     bogie, body = titled("Bogie, beside Table I of the paper", *columns), titled("Car body", "", "value")
+    any_differs = any(printed.get(name) != value for name, value in problem.bogie.parameters().items())
     for table in (bogie, body):
-        for name in ("meaning", *(("differs",) if table is bogie else ())):
+        for name in ("meaning", *(("differs",) if table is bogie and any_differs else ())):
             table.add_column(name, justify="left")
     for name, value in problem.parameters().items():
         row = PARAMETERS[name]
@@ -181,7 +182,7 @@ def _parameters(problem: Problem) -> Iterator[Any]:
         known = printed.get(name)
         table1_value = "not in it" if known is None else format_quantity(known, row.unit)
         differs = "" if value == known else "≠ added" if known is None else "≠ changed"
-        bogie.add_row(name, shown, table1_value, row.meaning, differs)
+        bogie.add_row(name, shown, table1_value, row.meaning, *([differs] if any_differs else []))
     yield bogie
     if of_body:
         yield body
