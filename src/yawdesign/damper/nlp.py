@@ -56,7 +56,7 @@ class Improver:
     space : Space
         The design space.
     options : mapping
-        CasADi `nlpsol` options; they win over the defaults.
+        CasADi `nlpsol` options; they take the place of the defaults.
     """
 
     def __init__(self, space: Space, options: Mapping[str, Any]) -> None:

@@ -55,7 +55,7 @@ def optimise(
     seed : int, optional
         Of the search points. With up to three variables the answer does not depend on it; with more, try a few.
     options : mapping, optional
-        Options of CasADi's `nlpsol` for IPOPT; they win over the defaults.
+        Options of CasADi's `nlpsol` for IPOPT; they take the place of the defaults.
     executor : concurrent.futures.Executor or distributed.Client, optional
         Who searches, where there are several searches: with more than three variables, and with a catalogue.
     progress : callable, optional

@@ -59,7 +59,7 @@ def facts(title: str, rows: Iterable[tuple[str, str]]) -> Table:
 
 def modes_table(modes: Iterable["Mode"]) -> Table:
     """Return the table of the modes."""
-    table = titled("Modes, least damped first", "frequency [Hz]", "damping ratio [%]", "decay rate [1/s]")
+    table = titled("Modes, slowest decay first", "frequency [Hz]", "damping ratio [%]", "decay rate [1/s]")
     for mode in modes:
         frequency = f"{mode.frequency:.3f}" if mode.frequency else "no oscillation"
         table.add_row(frequency, f"{100 * mode.damping_ratio:.2f}", f"{mode.decay_rate:.4g}")
