@@ -9,8 +9,13 @@ from pathlib import Path
 import flint
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, settings
 
 from yawdesign.vehicle.vehicle import Model
+
+# How long an example takes says nothing where other work goes on beside it.
+settings.register_profile("any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("any machine")
 
 CASES = json.loads((Path(__file__).parent / "data" / "cases.json").read_text(encoding="utf-8"))["cases"]
 TABLE_1 = CASES[0]["bogie"]
