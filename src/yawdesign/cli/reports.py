@@ -26,7 +26,7 @@ def report(
     pdf: Annotated[
         str | None, typer.Option(metavar="FILE.pdf", help="Print it too, by a browser without a window.")
     ] = None,
-    jobs: Jobs = 1,
+    jobs: Jobs = 2,
     dask: Dask = None,
     force: Force = False,
 ) -> None:

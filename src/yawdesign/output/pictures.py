@@ -163,12 +163,17 @@ def legend_below(ax: "Axes", handles: "list[Any] | None" = None, *, left: float 
     under = 26 + 13 * (1 + ax.get_xlabel().count("\n")) if ax.get_xlabel() else 20
     figure = ax.get_figure(root=True)
     place = ax.transAxes + ScaledTranslation(0, -under / 72, figure.dpi_scale_trans)  # type: ignore[union-attr]
+    room = _room(ax) - left
+    signs = max(20, int((room - HANDLE) / SMALL_SIGN))
+    labels = [wrapped(str(handle.get_label()), signs) for handle in handles]
+    widths = [max(len(_seen(line)) for line in label.split("\n")) for label in labels]
     ax.legend(
         handles=handles,
+        labels=labels,
         loc="upper left",
         bbox_to_anchor=(0.0, 0.0),
         bbox_transform=place,
-        ncols=_columns([len(_seen(str(handle.get_label()))) for handle in handles], _room(ax) - left),
+        ncols=_columns(widths, room),
         borderaxespad=0.0,
         columnspacing=1.6,
         handlelength=2.4,

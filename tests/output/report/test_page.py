@@ -178,6 +178,12 @@ def test_no_design_gets_a_page_with_the_reason_and_what_to_change():
     assert not {"locus", "run", "live"} & set(sections)
 
 
+@pytest.mark.parametrize("change", [{"C_s": 0}, {"lambda": 0}])
+def test_no_sliders_where_they_could_not_start(review, change):
+    assert motion_sections.live(review) is not None
+    assert motion_sections.live(replace(review, design=review.design.replace(**change))) is None
+
+
 def luminance(colour):
     parts = [int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)]
     r, g, b = (x / 12.92 if x <= 0.03928 else ((x + 0.055) / 1.055) ** 2.4 for x in parts)

@@ -120,8 +120,8 @@ def _at_hunting(found: "DamperComponent") -> "Table":
 
 
 def live(review: "DesignReview") -> Section | None:
-    """Return the sliders by which other values are looked at in the page itself."""
-    if review.design is None or review.design.bogie.C_s is None:
+    """Return the sliders by which other values are looked at in the page itself; they start above zero."""
+    if review.design is None or not review.design.bogie.C_s or not review.design.parameters()["lambda"]:
         return None
     panel = live_panel(review.design, review.design.bogie.C_s)
     return Section("live", "Other values", panel, on_paper=False, whole=True)
