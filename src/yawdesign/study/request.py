@@ -89,7 +89,7 @@ class Question:
             Model.of(problem),
             remaining(problem, of, given).grid(MOST_CONDITIONS),
             searched=SEARCHED if len(speeds) == 1 else (float(speeds[0]), float(speeds[-1])),
-            variables=tuple(problem.design.variables),
+            variables=tuple(sorted(problem.design.variables)),
             curve=problem.curve,
         )
 
