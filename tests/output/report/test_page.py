@@ -138,6 +138,19 @@ def test_the_verdict_is_told_in_words_and_by_a_sign(review, read):
     assert f"{review.optimum.C_s / 1e3:.0f}"[-3:] in told
 
 
+def test_what_is_not_survived_or_reached_stands_under_the_verdict(review):
+    def told(shown):
+        return verdict.verdict(shown).body
+
+    lost, fault = replace(review.after.cases[0], stable=False, checked=True), "&lt;i&gt;lost&lt;/i&gt; $5"
+    speeds = replace(review.critical_speed, stable_up_to=60.0, speed_wanted=90.0)
+    assert f"Unstable with this fault: {fault}." in told(replace(review, after=replace(review.after, cases=(lost,))))
+    assert "Stable up to 216 km/h only, below 324 km/h" in told(replace(review, critical_speed=speeds))
+    speeds = replace(speeds, speed_wanted=50.0)
+    survived = replace(review, after=replace(review.after, cases=(replace(lost, stable=True),)), critical_speed=speeds)
+    assert not any(text in told(survived) for text in ("this fault", "only, below"))
+
+
 def test_motion_stands_still_where_it_is_not_wanted(read):
     (rules,) = [text for _, text in read.all("style") if "@keyframes" in text]
     moving = re.findall(r"\.(film-\d+)\{animation", rules)

@@ -33,7 +33,23 @@ def verdict(review: "DesignReview") -> Section:
     message = paragraph(f"{optimum.status}: {optimum.message}.")
     scope = review.forward.scope
     warning = paragraph(scope, "warning" if scope.startswith("DO NOT") else "note") if scope else ""
-    return Section("verdict", "Verdict", "\n".join([line, under, message, warning, tables(_facts(review))]))
+    missed = [paragraph(told, "warning") for told in _not_held(review)]
+    return Section("verdict", "Verdict", "\n".join([line, *missed, under, message, warning, tables(_facts(review))]))
+
+
+def _not_held(review: "DesignReview") -> Iterator[str]:
+    """Yield what the design does not survive or reach, though nothing in the problem requires it."""
+    cases = review.after.cases if review.after is not None else ()
+    for kind, names in (
+        ("Unstable with this fault", [case.name for case in cases if case.checked and not case.stable]),
+        ("Not verified with this fault", [case.name for case in cases if not case.checked]),
+    ):
+        if names:
+            yield f"{kind}: {'; '.join(names)}."
+    found = review.critical_speed
+    if found is not None and found.stable_up_to is not None and found.stable_up_to < found.speed_wanted:
+        wanted = f"{speed(found.speed_wanted)}, the 1.1 v at which vehicles are tested for acceptance"
+        yield f"Stable up to {speed(found.stable_up_to)} only, below {wanted}."
 
 
 def _line(review: "DesignReview") -> str:
