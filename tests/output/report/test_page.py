@@ -3,10 +3,12 @@
 import base64
 import hashlib
 import re
+from concurrent.futures import BrokenExecutor
 from dataclasses import replace
 from html.parser import HTMLParser
 from itertools import pairwise
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from typer.testing import CliRunner
@@ -247,6 +249,17 @@ def test_what_cannot_be_written_is_said_before_work(no_work, file, tmp_path):
         done = run(file, "--to", to)
         assert (done.exit_code, what in done.stderr) == (2, True), done.output
     assert there.read_text(encoding="utf-8") == "old"
+
+
+@pytest.mark.parametrize(("cause", "code"), [(KeyboardInterrupt(), 130), (BrokenExecutor(), 3)])
+def test_what_ends_in_the_middle_leaves_no_page(file, tmp_path, monkeypatch, cause, code):
+    def ending(*_, **__):
+        raise yd.IncompleteTradeOffError("it ended", SimpleNamespace(front=())) from cause
+
+    monkeypatch.setattr(reviews, "design_review", ending)
+    done = run(file, "--to", tmp_path / "a.html", "--jobs", 1)
+    assert (done.exit_code, list(tmp_path.glob("a.html"))) == (code, [])
+    assert "it ended; no page is written" in done.stderr
 
 
 def test_no_browser_is_said_before_work(no_work, file, tmp_path, monkeypatch):
