@@ -17,7 +17,7 @@ LONG = "a road of many words " * 9 + "x" * 300
 def drawn(axes):
     """Draw as a page does, where a layout that does not fit is an error."""
     with warnings.catch_warnings():
-        warnings.simplefilter("error", UserWarning)
+        warnings.filterwarnings("error", message="constrained_layout")
         return figure(axes, "picture", "title", "description")
 
 
