@@ -68,6 +68,12 @@ def checks(review: "DesignReview") -> Section:
 
 
 def _checks(review: "DesignReview") -> Iterator[Check]:
+    yield from _of_the_design(review)
+    yield from _of_many_cases(review)
+    yield from _of_the_run(review)
+
+
+def _of_the_design(review: "DesignReview") -> Iterator[Check]:
     optimum = review.optimum
     if review.after is not None:
         yield (
@@ -104,6 +110,9 @@ def _checks(review: "DesignReview") -> Iterator[Check]:
             "eigenvalues and Routh's array on both sides",
             review.critical_speed.checked,
         )
+
+
+def _of_many_cases(review: "DesignReview") -> Iterator[Check]:
     if review.front is not None:
         good = all(point["checked"] for point in review.front.front)
         yield (
@@ -140,6 +149,9 @@ def _checks(review: "DesignReview") -> Iterator[Check]:
             f"{found.compared} verdicts against eigenvalues, {found.differences} differ",
             found.checked,
         )
+
+
+def _of_the_run(review: "DesignReview") -> Iterator[Check]:
     if review.run is not None:
         one = review.run.runs[0]
         yield (
