@@ -5,7 +5,7 @@ from importlib import import_module
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 import yawdesign as yd
@@ -158,6 +158,8 @@ def bounds_of(draw, name):
 
 
 @given(boxes(), st.lists(st.floats(0, 1), min_size=4, max_size=4))
+@example(("trailer", {"M_b": (0.001, 1e18), "W": (0.0, 5e-324)}), [0.0, 1.0, 0.0, 0.0])
+@example(("power", {"W": (0.0, 1e-317), "C_s": (1e5, 1e5 + 2e-11)}), [0.3, 0.5, 0.0, 0.0])
 @settings(max_examples=100, deadline=None)
 def test_every_point_of_the_cube_lies_within_the_bounds(box, x):
     kind, bounds = box

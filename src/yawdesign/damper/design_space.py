@@ -181,8 +181,7 @@ class Space:
     def coordinates(self, values: Mapping[str, float]) -> Float:
         """Return the point of the unit cube that belongs to given values, moved to its surface if outside."""
         known = {**self.fixed, **values}
-        places = [fraction(*self._ends(name, known), float(values[name]), scale(name)) for name in self.names]
-        return np.asarray(np.clip(np.array(places), 0, 1))
+        return np.array([fraction(*self._ends(name, known), float(values[name]), scale(name)) for name in self.names])
 
     def _ends(self, name: str, known: Values) -> tuple[Any, Any]:
         """Return the ends of a coordinate: the bounds, and for C_s what the curve allows with the other values."""
@@ -304,13 +303,18 @@ def scale(name: str) -> float:
 
 def between(low: Any, high: Any, x: Any, size: float) -> Any:
     """Return the point at fraction x between two bounds, linear below a size and geometric above it."""
-    return np.clip(low + (low + size) * np.expm1(_width(low, high, size) * x), low, high)
+    width = _width(low, high, size)
+    return np.clip(low + (high - low) * (np.expm1(width * x) / np.expm1(width)), low, high)
 
 
 def fraction(low: float, high: float, value: float, size: float) -> float:
-    """Return the inverse of `between`."""
-    return float(_width(low, value, size) / _width(low, high, size)) if high > low else 0.0
+    """Return the inverse of `between`, for a value outside the bounds that of the nearest."""
+    if high <= low:
+        return 0.0
+    width, inside = _width(low, high, size), min(max(value, low), high)
+    return min(float(np.log1p((inside - low) / (high - low) * np.expm1(width)) / width), 1.0)
 
 
 def _width(low: Any, high: Any, size: float) -> Any:
-    return np.log1p((high - low) / (low + size))
+    # Bounds nearer than this are a straight line; without a least width, the narrowest have the quotient 0/0.
+    return np.maximum(np.log1p((high - low) / (low + size)), 1e-12)
