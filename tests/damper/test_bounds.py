@@ -174,6 +174,7 @@ def test_every_point_of_the_cube_lies_within_the_bounds(box, x):
 
 @pytest.mark.slow
 @given(boxes(), st.sampled_from(["decay_rate", "damping_ratio"]), st.integers(0, 99))
+@example(("trailer", {"K_2x": (0.0, 1e18), "M_b": (0.001, 1e18), "lambda": (0.0, 10.0)}), "decay_rate", 0)
 @settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_an_optimum_of_any_box(quick, box, objective, seed):
     kind, bounds = box

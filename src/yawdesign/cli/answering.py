@@ -5,6 +5,7 @@ import logging
 import sys
 import warnings
 from collections.abc import Iterator
+from concurrent.futures import BrokenExecutor
 from contextlib import AbstractContextManager, contextmanager
 from signal import SIGINT
 from typing import TYPE_CHECKING, Annotated, Any
@@ -47,7 +48,7 @@ def mistakes_told() -> Iterator[None]:
     try:
         with warnings_told(UnitWarning), long_work_told():
             yield
-    except (ProblemError, OSError, KeyboardInterrupt) as error:
+    except (ProblemError, OSError, KeyboardInterrupt, BrokenExecutor) as error:
         tell(told(error))
         raise typer.Exit(code_of(error)) from None
 
@@ -56,6 +57,8 @@ def told(error: BaseException) -> str:
     """Return what an error says to a person."""
     if isinstance(error, KeyboardInterrupt):
         return "interrupted"
+    if isinstance(error, BrokenExecutor):
+        return "error: a worker died, and nothing is kept; fewer --jobs need less memory"
     if not isinstance(error, OSError):
         return str(error)
     if error.filename == ANSWER:

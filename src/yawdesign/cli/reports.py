@@ -11,7 +11,6 @@ from yawdesign.cli.answering import (
     Force,
     Jobs,
     ProblemFile,
-    code_of,
     ended,
     mistakes_told,
     progress_shown,
@@ -34,7 +33,6 @@ def report(
     """Write one HTML page for a design review: verdict, optimum, pictures, checks; it needs nothing but itself."""
     with mistakes_told():
         problem = read_problem(file, changes)
-        from yawdesign.damper.trade_off import IncompleteTradeOffError
         from yawdesign.output.report.browser_print import find_browser, printed
         from yawdesign.output.report.report import PAGES, file_source, rendered
         from yawdesign.output.targets import Target, checked_targets
@@ -46,14 +44,10 @@ def report(
         _, to_print = checked_targets(targets, [file])
         browser = find_browser() if to_print else ""
         source = file_source(Path(file), changes or ())
-        try:
-            with workers(jobs, dask) as executor, progress_shown() as progress:
-                review = design_review(problem, executor=executor, progress=progress)
-                progress("drawing", 1.0)
-                page = rendered(review, source)
-        except IncompleteTradeOffError as error:
-            tell(f"error: {error.reason}; no page is written")
-            raise typer.Exit(code_of(error.__cause__)) from None
+        with workers(jobs, dask) as executor, progress_shown() as progress:
+            review = design_review(problem, executor=executor, progress=progress)
+            progress("drawing", 1.0)
+            page = rendered(review, source)
         write_whole(Path(to), page, replace=force)
         tell(f"written: {to} ({len(page) / 1000:.0f} kB)")
         if to_print:

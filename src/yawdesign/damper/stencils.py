@@ -75,8 +75,8 @@ def _best_of(landscape: Landscape, trial: Float, level: Float, tries: int) -> tu
     x, owner = trial.reshape(d, -1), np.repeat(np.arange(n), m)
     best, margin = trial[:, :, 0].copy(), level.copy()
     for _ in range(tries):
-        level = margin[owner]
-        beats = landscape.beats_at(x, level + LEAST * np.abs(level))
+        level = margin[owner]  # minus infinity where the curve's limit is exceeded
+        beats = landscape.beats_at(x, level + LEAST * np.where(np.isfinite(level), np.abs(level), 0))
         x, owner = x[:, beats], owner[beats]
         if not len(owner):
             break
