@@ -62,7 +62,7 @@ def animate(
 ) -> Path | Film:
     """Show a mode in motion in a notebook, or write it to a file.
 
-    An oscillating mode is shown over one cycle, without its decay or growth; another one as it dies out.
+    An oscillating mode is shown over one cycle, without its decay or growth; another one with its decay.
 
     Parameters
     ----------
