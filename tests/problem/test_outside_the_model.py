@@ -59,6 +59,8 @@ OUTSIDE = {
     "primary_stiffness": "K_1x and K_1y",
     "equivalent_conicity": "as lambda",
     "wheel_load": "as W",
+    "wheel": "conicity lambda",
+    "vehicle": "under bogie and, where",
     "wheelbase": "half of it as a",
     "gauge": "as b",
 }
@@ -143,6 +145,8 @@ def test_what_belongs_here_is_not_taken_for_another_vehicle(key):
         ("{base: table1, lambda: [0.1, 0.2]}", "several that are met stand under conditions"),
         ("{base: table1, C_s: {velocity: [0, 1], force: [0, 2]}}", "which is linear"),
         ("{base: table1, lambda: S1002}", "bogie.lambda: S1002 is not a number: wheel and rail are here the conicity"),
+        ("{base: table1, lambda: {table: a.csv}}", "which is linear: give the value for small motions"),
+        ("{kind: motors, base: table1}", "is not one of: power, trailer; a power bogie has two motors"),
         ("{kind: jacobs, base: table1}", "jacobs is not one of: power, trailer; outside this model, in which one car"),
         ("{kind: trailer bogie, base: table1}", "is not one of: power, trailer; did you mean trailer?"),
         ("[{base: table1}, {base: table1}]", "both bogies, and their ends, are equal"),
@@ -153,6 +157,11 @@ def test_values_of_another_vehicle(bogie, fragment):
     with pytest.raises(ProblemError) as caught:
         loads(f"{{bogie: {bogie}, speed: 300 km/h}}")
     assert fragment in str(caught.value)
+
+
+def test_several_cars():
+    with pytest.raises(ProblemError, match="car_body: outside this model, in which one car runs alone"):
+        loads("{bogie: {base: table1}, car_body: [{base: huo-dai}, {base: huo-dai}], speed: 300 km/h}")
 
 
 def test_a_short_list_of_names_is_shown():

@@ -9,7 +9,7 @@ from .diagnostics import suggestion
 
 MOST_LISTED = 12  # names that a message lists
 _OUTSIDE = "outside this model"
-_LINEAR = f"{_OUTSIDE}, which is linear: give the damping of small motions"
+_LINEAR = f"{_OUTSIDE}, which is linear: give the value for small motions"
 
 # Patterns of keys, in small letters and digits only, and what is answered; the first that fits the whole key counts.
 _ANSWERS = (
@@ -31,7 +31,7 @@ _ANSWERS = (
     ),
     (
         r"(n|no|number|numof|numberof)?motors?(count|number|perbogie)?",
-        "is not a number here: a power bogie has two motors, with the keys M_m, J_m, K_m ...; a trailer bogie has none",
+        "a power bogie has two motors, with the keys M_m, J_m, K_m ...; a trailer bogie has none",
     ),
     (
         r".*(perside|dampers?.*(side|bogie|count))|n(o|umber|umberof)?(yaw)?dampers?|nyaw|yawdampers?|nds",
@@ -93,7 +93,7 @@ _ANSWERS = (
     (r".*(derail|nadal|wear).*", f"{_OUTSIDE}, which computes neither derailment nor wear"),
     (r".*comfort.*|sperling.*", "`yawdesign simulate` computes it; it can be neither required nor optimised"),
     (
-        r".*(profile|kalker(?!factor)|fastsim|contactpatch|contacttable|contactangle|inclination).*|spin(creep)?"
+        r".*(profile|kalker(?!factor)|fastsim|contactpatch|contacttable|contactangle|inclination).*|spin(creep)?|wheels?"
         r"|f(12|23|33)|c(11|22|23)|(s1002|uic60|rsgeo).*|k?gravity(stiffness|coefficient)?",
         "wheel and rail are here the conicity lambda and the creep coefficients f_11 and f_22; "
         "creep: {kalker_factor: 0.6} under bogie makes these from the axle load",
@@ -126,6 +126,7 @@ _ANSWERS = (
     (r"k1(yaw|psi|phi)", "divide the yaw stiffness of the primary suspension of a wheelset by b_1^2: K_1x"),
     (r"(equivalent|effective)conicity|gammae|tangammae?", "give the equivalent conicity as lambda"),
     (r"wheelload|q0?", "give twice the wheel load, the axle load, as W"),
+    (r"vehicle", "the vehicle stands under bogie and, where its car body moves, car_body"),
     (r"cant(deficiency)?|superelevation", "has no part in the rotational resistance in a curve: remove it"),
     (r"(bogie)?wheelbase", "give half of it as a"),
     (r"(wheel)?(radius|diameter)", "give the rolling radius of the wheels as r"),
