@@ -2,6 +2,7 @@
 
 import pytest
 
+import yawdesign as yd
 from yawdesign.problem import ProblemError, loads, table1
 from yawdesign.problem.condition import CREEP_FACTOR
 from yawdesign.problem.creep import CREEP
@@ -157,6 +158,13 @@ def test_values_of_another_vehicle(bogie, fragment):
     with pytest.raises(ProblemError) as caught:
         loads(f"{{bogie: {bogie}, speed: 300 km/h}}")
     assert fragment in str(caught.value)
+
+
+def test_axes_and_conditions_answer():
+    with pytest.raises(ProblemError, match="axles: outside this model, in which every bogie has two wheelsets"):
+        yd.sweep(table1(), of="stable", axles=[2, 3])
+    with pytest.raises(ProblemError, match="profile: wheel and rail are here the conicity lambda"):
+        yd.modes(table1(), condition={"profile": "worn"})
 
 
 def test_several_cars():
