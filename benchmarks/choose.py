@@ -46,8 +46,9 @@ def main() -> None:
         begin, own = time.perf_counter(), time.process_time()
         found = yd.choose(problem)
         took, used = time.perf_counter() - begin, time.process_time() - own
-        same = sum(agrees(problem, each) for each in found.candidates[:: max(1, asked.rows // asked.compared)])
-        print(f"{name}: {took:.2f} s ({used:.2f} s of this process); {same} of {asked.compared} the same alone")
+        compared = found.candidates[:: max(1, asked.rows // asked.compared)]
+        same = sum(agrees(problem, each) for each in compared)
+        print(f"{name}: {took:.2f} s ({used:.2f} s of this process); {same} of {len(compared)} the same alone")
 
 
 def agrees(problem: yd.Problem, candidate: Candidate) -> bool:

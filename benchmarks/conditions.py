@@ -120,13 +120,17 @@ def judged(row: Row, design: np.ndarray) -> float:
     )
 
 
+def bounds_of(row: Row) -> list[tuple[float, float]]:
+    """Return the bounds of the logarithms of the row's variables, in their order; the curve limits C_s."""
+    task = row.task
+    ends = {name: (float(variable.min), float(variable.max)) for name, variable in task.design.variables.items()}
+    ends["C_s"] = ends["C_s"][0], min(ends["C_s"][1], float(curving_limit(task.bogie.parameters(), task.curve)))
+    return [(np.log(ends[name][0]), np.log(ends[name][1])) for name in row.variables]
+
+
 def evolved(row: Row, evaluations: int, seed: int) -> tuple[np.ndarray, float]:
     """Return the design that differential evolution finds, and the time [s]."""
-    task = row.task
-    variables = task.design.variables
-    high = {name: float(variable.max) for name, variable in variables.items()}
-    high["C_s"] = min(high["C_s"], float(curving_limit(task.bogie.parameters(), task.curve)))
-    bounds = [(np.log(float(variable.min)), np.log(high[name])) for name, variable in variables.items()]
+    bounds = bounds_of(row)
     begin, size = time.perf_counter(), 15 * len(bounds)
     found = differential_evolution(
         lambda x: -worst_of(row, np.exp(x), COARSE), bounds, popsize=15, maxiter=max(1, evaluations // size - 1),

@@ -36,26 +36,31 @@ def problem(objective: str, equations: str, seed: int | None = None) -> yd.Probl
 
 
 def margin_of(task: yd.Problem) -> Callable[[np.ndarray], np.ndarray]:
+    """Return what differential evolution minimises: minus the margin, over logarithms of the variables."""
     p, model = {**task.bogie.parameters(), "v": task.speeds[0]}, Model.of(task)
-    coupled = model.motions[0]
+    names, coupled = tuple(task.design.variables), model.motions[0]
 
     def negative_margin(x: np.ndarray) -> np.ndarray:
-        C_s, K_m, C_m = np.exp(x)
-        s = np.linalg.eigvals(motion_matrix(model.at({**p, "C_s": C_s, "K_m": K_m, "C_m": C_m}), coupled))
+        values = dict(zip(names, np.exp(x), strict=True))
+        s = np.linalg.eigvals(motion_matrix(model.at({**p, **values}), coupled))
         measure = -s.real if task.design.objective == "decay_rate" else -s.real / np.abs(s)
         return -measure.min(axis=-1)
 
     return negative_margin
 
 
-def evolve(task: yd.Problem, seed: int) -> tuple[float, float]:
+def bounds_of(task: yd.Problem) -> list[tuple[float, float]]:
+    """Return the bounds of the logarithms of the variables; the curve limits C_s."""
     variables = task.design.variables
     high = {name: float(v.max) for name, v in variables.items()}
     high["C_s"] = min(high["C_s"], float(curving_limit(task.bogie.parameters(), task.curve)))
-    bounds = [(np.log(float(v.min)), np.log(high[name])) for name, v in variables.items()]
+    return [(np.log(float(v.min)), np.log(high[name])) for name, v in variables.items()]
+
+
+def evolve(task: yd.Problem, seed: int) -> tuple[float, float]:
     begin = time.perf_counter()
     found = differential_evolution(
-        margin_of(task), bounds, popsize=15, maxiter=40_000 // 45 - 1, tol=0, atol=0, polish=False, vectorized=True,
+        margin_of(task), bounds_of(task), popsize=15, maxiter=40_000 // 45 - 1, tol=0, atol=0, polish=False, vectorized=True,
         updating="deferred", rng=seed,
     )  # fmt: skip
     return -float(found.fun), time.perf_counter() - begin

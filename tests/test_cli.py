@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from typer.main import get_command
 from typer.testing import CliRunner
 
 from yawdesign.cli import app, main
@@ -208,6 +209,14 @@ def test_completion_says_how_it_is_set_up():
     shown = run("--help").stdout
     assert "--install-completion" in shown
     assert "--show-completion" in shown
+
+
+def test_options_that_take_a_file_say_so():
+    commands = get_command(app).commands.values()
+    files = {"csv", "npz", "plot", "xlsx", "resume"}
+    shown = {(command.name, each.name): each.metavar for command in commands for each in command.params}
+    assert {key: text for key, text in shown.items() if key[1] in files and text != "FILE"} == {}
+    assert ("sweep", "resume") in shown
 
 
 def test_help_is_light():

@@ -53,6 +53,14 @@ def test_results_are_plain_data_and_readable():
     assert np.isclose(result.damping_ratio, min(m.damping_ratio for m in result.modes))
 
 
+def test_long_lists_and_mappings_of_a_result_are_shown_in_part():
+    response = yd.stationary_response(yd.table1())
+    (line,) = (each for each in repr(response).splitlines() if each.startswith("  rms "))
+    assert line.endswith(f", ... ({len(response.rms)} in all)")
+    assert line.count("=") == 12
+    assert "speed=83.3333333" in repr(yd.stability(yd.table1()))
+
+
 def test_every_dependency_has_a_lowest_version_that_is_tested():
     """The constraints of .ci/run name every library but the tools of development."""
     root = Path(__file__).parents[1]

@@ -210,6 +210,14 @@ def test_a_row_for_each_condition():
     assert len(yd.plot(many, ax=small).get_yticks()) < len(drawn(many).get_yticks())
 
 
+def test_of_many_conditions_it_is_said_how_many_are_drawn():
+    many = {"lambda": [0.05, 0.10, 0.15, 0.25, 0.40], "creep_factor": [1, 0.7, 0.5]}
+    ax = drawn(yd.design(PRINTED.replace(conditions=many)))
+    names = [label.get_text() for label in ax.get_yticklabels()]
+    assert names[0] == f"every condition ({len(names) - 1} shown)"
+    assert len(names) - 1 < 15
+
+
 def test_optimum():
     variables = {"C_s": yd.Variable(min="10 kN s/m", max="10 MN s/m")}
     best = yd.optimise(PRINTED.replace(design=yd.Design(variables=variables)))

@@ -39,7 +39,7 @@ def export(
     condition: AskedCondition = None,
     as_json: AsJson = False,
 ) -> None:
-    """Write the model as functions for C, MATLAB and CasADi, with a manifest of their inputs and outputs."""
+    """Write the model as functions for C, MATLAB and CasADi, as matrices and as an FMU, with a manifest."""
     with mistakes_told():
         under, problem = asked_condition(condition), read_problem(file, changes)
         from yawdesign.exports.write import export as write

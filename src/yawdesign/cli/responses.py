@@ -47,9 +47,11 @@ def simulate(
     wavelength: Annotated[str | None, typer.Option(help="Of --track harmonic; 20 m.")] = None,
     amplitude: Annotated[str | None, typer.Option(help="Of --track harmonic, 5 mm, or sinusoid, 1 m.")] = None,
     seed: Annotated[int | None, typer.Option(min=0, help="Of a spectrum's random phases; 0.")] = None,
-    csv: Annotated[str | None, typer.Option(help="Write the time histories as text.")] = None,
-    npz: Annotated[str | None, typer.Option(help="Write the time histories as NumPy arrays.")] = None,
-    plot: Annotated[str | None, typer.Option(help="Draw responses to a .png, .pdf or .svg file.")] = None,
+    csv: Annotated[str | None, typer.Option(metavar="FILE", help="Write the time histories as text.")] = None,
+    npz: Annotated[str | None, typer.Option(metavar="FILE", help="Write the time histories as NumPy arrays.")] = None,
+    plot: Annotated[
+        str | None, typer.Option(metavar="FILE", help="Draw responses to a .png, .pdf or .svg file.")
+    ] = None,
     response: Annotated[
         list[str] | None,
         typer.Option(help="What --plot draws; y_b, or the car body's accelerations. May be repeated, in one unit."),
@@ -125,7 +127,9 @@ def modes(
     of: Annotated[
         str, typer.Option(help="What --plot draws with --over: root_locus (default), damping_ratio or frequency.")
     ] = "",
-    animate: Annotated[str, typer.Option(metavar="MODE", help="Which mode is drawn; the slowest if not given.")] = "",
+    animate: Annotated[
+        str, typer.Option(metavar="MODE", help="Which mode is drawn; the one of least decay rate if not given.")
+    ] = "",
     to: Annotated[
         str | None, typer.Option(metavar="FILE", help="Show the mode in motion: a .gif or .svg file.")
     ] = None,

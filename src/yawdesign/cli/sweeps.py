@@ -33,13 +33,15 @@ def sweep(
         typer.Option(help="stable, decay_rate, damping_ratio, margin, critical, C_sl, design or critical_speed."),
     ] = "C_sl",
     hold: Annotated[str | None, typer.Option(help="C_m (default) or xi_m: what stays when f_m changes.")] = None,
-    csv: Annotated[str | None, typer.Option(help="Write a table.")] = None,
-    npz: Annotated[str | None, typer.Option(help="Write arrays for NumPy.")] = None,
+    csv: Annotated[str | None, typer.Option(metavar="FILE", help="Write a table.")] = None,
+    npz: Annotated[str | None, typer.Option(metavar="FILE", help="Write arrays for NumPy.")] = None,
     plot: Plot = None,
     xlsx: Xlsx = None,
     jobs: Annotated[int, typer.Option(min=1, help="Number of processes.")] = 1,
     dask: Annotated[str | None, typer.Option(help="Address of a dask scheduler that computes.")] = None,
-    resume: Annotated[str | None, typer.Option(help="File that keeps unfinished work, and goes on from it.")] = None,
+    resume: Annotated[
+        str | None, typer.Option(metavar="FILE", help="File that keeps unfinished work, and goes on from it.")
+    ] = None,
     force: Force = False,
     as_json: AsJson = False,
 ) -> None:

@@ -31,7 +31,7 @@ def trade_off(
     file: ProblemFile,
     changes: Changes = None,
     points: Annotated[int, typer.Option(help="For how many rotational resistances the best design is found.")] = 12,
-    csv: Annotated[str | None, typer.Option(help="Write a table.")] = None,
+    csv: Annotated[str | None, typer.Option(metavar="FILE", help="Write a table.")] = None,
     plot: Plot = None,
     xlsx: Xlsx = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the search points.")] = 0,

@@ -14,6 +14,7 @@ from yawdesign.problem import PARAMETERS, Problem, ProblemError, Written, exact
 from yawdesign.problem.condition import CREEP_FACTOR, TOLERANCE, Condition, Conditions, Load
 from yawdesign.problem.condition_texts import change_text
 from yawdesign.problem.diagnostics import Mistakes, suggestion, unknown_key
+from yawdesign.problem.outside_the_model import answer_to
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_quantity, key_of, shown
 from yawdesign.problem.written_conditions import MOST_TOLERANCE
@@ -163,7 +164,7 @@ def _value(problem: Problem, name: str, value: object) -> Any:
     if name == CREEP_FACTOR.key:
         return CREEP_FACTOR.check(value)
     if parameter not in problem.keys:
-        raise ProblemError(unknown_key(name, tuple(_known(problem))))
+        raise ProblemError(answer_to(name) or unknown_key(name, tuple(_known(problem))))
     if name == parameter:
         return PARAMETERS[name].finite.check(value)
     share = as_quantity(value, "-")

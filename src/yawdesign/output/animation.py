@@ -62,7 +62,7 @@ def animate(
 ) -> Path | Film:
     """Show a mode in motion in a notebook, or write it to a file.
 
-    An oscillating mode is shown over one cycle, without its decay or growth; another one as it dies out.
+    An oscillating mode is shown over one cycle, without its decay or growth; another one with its decay.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def animate(
         The file; without one a notebook shows what is returned. Its ending, .gif or .svg, says what is written. The SVG
         needs nothing but itself, and a viewer that runs scripts.
     mode : str, optional
-        Name of the mode; the least damped one if not given.
+        Name of the mode; the one of least decay rate if not given.
     replace : bool
         Whether a file that is there is replaced.
 

@@ -52,8 +52,7 @@ def draw_design(result: "ForwardDesign", ax: "Axes | None" = None, *, beside: Se
     low, high = _ends(result, beside)
     ax.set(xlim=(low, high), xlabel=r"damping of the pair of yaw dampers $C_\mathrm{s}$ [kN·s/m]")
     log_axis(ax)
-    every = "every condition" if len(_conditions(result)) > 1 else ""
-    bars = [(every or "this vehicle", result.stable_intervals), *rows]
+    bars = [(_every(result, rows) or "this vehicle", result.stable_intervals), *rows]
     for k, (_, intervals) in enumerate(bars):
         _bar(ax, k, intervals, result.C_su)
     names = [name for name, _ in bars] if rows else []
@@ -111,6 +110,14 @@ def _rows(result: "ForwardDesign") -> list[tuple[str, Intervals]]:
     if result.single_bogie is not None:
         rows.append(("one bogie, car body standing still", result.single_bogie.stable_intervals))
     return rows
+
+
+def _every(result: "ForwardDesign", rows: Sequence[tuple[str, Intervals]]) -> str:
+    """Return the name of what is stable under every condition; it says how many stand below, if not all do."""
+    names = [_short(name) for name in _conditions(result)]
+    shown = sum(name in names for name, _ in rows)
+    every = "every condition" if shown == len(names) else f"every condition ({shown} shown)"
+    return every if len(names) > 1 else ""
 
 
 def _nearest(result: "ForwardDesign", rows: list[tuple[str, Intervals]], count: int) -> list[tuple[str, Intervals]]:

@@ -53,7 +53,7 @@ def mode_shape(result: "Modes", ax: "Axes | None" = None, *, mode: str | None = 
     ax : matplotlib.axes.Axes, optional
         Where to draw.
     mode : str, optional
-        Its name; the least damped one if not given.
+        Its name; the one of least decay rate if not given.
     phase : float
         Of the cycle [rad]; a mode that does not oscillate has died out to 1.5 % after 2 pi.
     """

@@ -70,7 +70,7 @@ def box(x: float, y: float, half_length: float, half_width: float) -> tuple[Corn
 
 
 def find_mode(result: "Modes", name: str | None) -> "NamedMode":
-    """Return the mode with a name, the least damped one if none is given."""
+    """Return the mode with a name, the one of least decay rate if none is given."""
     return result[0 if name is None else name]
 
 

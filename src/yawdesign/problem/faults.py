@@ -27,6 +27,7 @@ from .written_conditions import OWN_KEYS, read_conditions
 
 _NO_ROBUST = "is not a known key: what must hold stands under conditions, such as lambda: [0.05, 0.40]"
 _TAGS = ("<range>", "<value>")
+_SEVERAL = {("bogie",): "bogies", ("car_body",): "cars"}  # as what a list of them is answered
 TOP = (
     *("title", "equations", "bogie", "car_body", "speed", "curve", "conditions", "cases", "requirements", "design"),
     "uncertainty",
@@ -158,8 +159,8 @@ def _told(found: Any, path: Path, kind: str) -> Iterator[Fault]:
             yield Fault(path, _unknown(path, kind), at_key=True)
         case _:
             value = found["input"]
-            if path == ("bogie",) and isinstance(value, list):
-                yield Fault(path, str(answer_to("bogies")))
+            if path in _SEVERAL and isinstance(value, list):
+                yield Fault(path, str(answer_to(_SEVERAL[path])))
                 return
             what = "has no value" if value is None else "is not what stands here"
             yield Fault(path, f"{what}, expected keys and values: {', '.join(_allowed(path, kind)[:4])} ...")

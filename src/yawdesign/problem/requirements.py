@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from .diagnostics import Diagnostic, Mistakes, ProblemError, suggestion, wrong_key
+from .outside_the_model import answer_to
 from .running import SPEED
 from .table import Parameter, shown
 
@@ -114,7 +115,8 @@ def _row(name: str, wanted: object) -> Parameter:
         raise _not_keys(wanted, "damping_ratio: 0 %")
     if measure not in MEASURES:
         known = (*MEASURES, "cases") if measure == name else tuple(MEASURES)
-        raise wrong_key(f"is not known here{suggestion(measure, known)}; known here: {', '.join(known)}")
+        unknown = f"is not known here{suggestion(measure, known)}; known here: {', '.join(known)}"
+        raise wrong_key(answer_to(measure) or unknown)
     return MEASURES[measure]
 
 

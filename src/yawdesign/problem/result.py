@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     import pandas
 
 
+MOST_ENTRIES, MOST_KEYS = 6, 12  # of a list, and of a mapping, that a line of a result's table shows
+
+
 @dataclass(frozen=True, repr=False)
 class Result(NotebookView):
     """A result: its attributes are the keys of `to_dict`."""
@@ -101,12 +104,17 @@ def _cell(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.9g}"
     if isinstance(value, Mapping):
-        return ", ".join(f"{key}={_cell(entry)}" for key, entry in value.items()) or "none"
+        return _first([f"{key}={_cell(entry)}" for key, entry in [*value.items()][:MOST_KEYS]], len(value))
     if isinstance(value, (list, tuple)):
-        shown = ", ".join(_cell(entry) for entry in value[:6])
-        return (shown + (f", ... ({len(value)} in all)" if len(value) > 6 else "")) or "none"
+        return _first([_cell(entry) for entry in value[:MOST_ENTRIES]], len(value))
     if isinstance(value, complex):
         return f"{value.real:.6g}{value.imag:+.6g}j"
     if is_dataclass(value) and not isinstance(value, type):
-        return "(" + _cell({f.name: getattr(value, f.name) for f in fields(value)}) + ")"
+        return "(" + ", ".join(f"{f.name}={_cell(getattr(value, f.name))}" for f in fields(value)) + ")"
     return str(value)
+
+
+def _first(cells: list[str], count: int) -> str:
+    """Return the first entries of a list or a mapping, and how many there are if these are not all."""
+    rest = [f"... ({count} in all)"] if count > len(cells) else []
+    return ", ".join([*cells, *rest]) or "none"

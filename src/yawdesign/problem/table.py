@@ -11,7 +11,7 @@ from typing import Any, TypeVar, cast
 
 from .characters import refusal
 from .diagnostics import Mistakes, ProblemError, suggestion, warn_of_unit
-from .outside_the_model import why_no_number
+from .outside_the_model import answer_to, why_no_number
 from .quantities import Written, exact, format_number, format_quantity, parse_quantity, split_quantity
 from .units import UnitError, kind_of, parse_unit, si_unit
 
@@ -231,8 +231,9 @@ def as_choice(value: object, choices: Collection[str]) -> str:
     """Return `value` if it is one of `choices`."""
     if isinstance(value, str) and value in choices:
         return value
+    why = f"; {answer}" if isinstance(value, str) and (answer := answer_to(value)) else ""
     near = suggestion(value, choices) if isinstance(value, str) else ""
-    raise ProblemError(f"{shown(value)} is not one of: {', '.join(choices)}{near}")
+    raise ProblemError(f"{shown(value)} is not one of: {', '.join(choices)}{why or near}")
 
 
 def as_count(value: object, low: int, high: int) -> int:

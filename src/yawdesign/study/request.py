@@ -12,6 +12,7 @@ from yawdesign.problem import PARAMETERS, Curve, Problem, ProblemError
 from yawdesign.problem.condition import CREEP, TOLERANCE, Condition
 from yawdesign.problem.conditions import ConditionSet, condition_set
 from yawdesign.problem.diagnostics import Mistakes, unknown_key
+from yawdesign.problem.outside_the_model import answer_to
 from yawdesign.problem.parameters import BOGIE, CAR_BODY, MOTOR_KEYS, NO_MOTOR
 from yawdesign.problem.running import CURVE
 from yawdesign.problem.table import RIGID, as_choice, key_of
@@ -214,8 +215,9 @@ def _check_name(problem: Problem, name: str) -> None:
     if name in PARAMETERS and name not in allowed:
         raise ProblemError(_why_absent(problem, name))
     if name not in allowed:
-        raise ProblemError(f"{unknown_key(name, allowed)}; an axis is a parameter of the problem, v, or one of "
-                           f"{', '.join(key for key in (*DERIVED, *CURVE) if key in allowed)}")  # fmt: skip
+        others = ", ".join(key for key in (*DERIVED, *CURVE) if key in allowed)
+        unknown = f"{unknown_key(name, allowed)}; an axis is a parameter of the problem, v, or one of {others}"
+        raise ProblemError(answer_to(name) or unknown)
 
 
 def _why_absent(problem: Problem, name: str) -> str:

@@ -23,7 +23,7 @@ def film(result: "Modes", mode: str | None, name: str, title: str, description: 
     result : Modes
         What `yawdesign.modes` returns.
     mode : str or None
-        Name of the mode; the least damped one if not given.
+        Name of the mode; the one of least decay rate if not given.
     name, title, description : str
         As of `yawdesign.output.markup.picture`.
     """
