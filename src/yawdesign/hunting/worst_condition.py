@@ -134,11 +134,10 @@ def _low_margins(measure: Measure, sets: ParameterSets, *, some: bool) -> Float:
     rng = np.random.default_rng(0)
     margin = np.full(sets.size, np.inf)
     left = _not_above(measure, sets, margin, np.arange(sets.size), SLACK, rng)
-    if (
-        some and len(left) > SOME
-    ):  # many are nearly as low, or unstable ones have no verdict: the lowest, and some of them
+    if some and len(left) > SOME:  # many are nearly as low, or unstable ones have no verdict
         lowest = _not_above(measure, sets, margin, left, 0.0, rng)
-        left = np.union1d(*(rng.choice(each, min(SOME, len(each)), replace=False) for each in (lowest, left)))
+        left = rng.choice(left, SOME, replace=False)
+        left = left if len(lowest) > SOME else np.union1d(lowest, left)
     margin[left] = measure.of(sets.part(left))
     return margin
 
