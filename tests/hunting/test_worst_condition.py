@@ -117,3 +117,31 @@ def test_a_fault_and_modes_left_out():
     behind = Measure("decay_rate", measure.variables, pairs=1)
     assert worst_conditions(model, p, conditions, behind)[0].margin > 0
     assert worst_conditions(model, p, conditions, behind)[0].margin > half
+
+
+class OneLowCorner:
+    """A margin that is nearly the same everywhere, and less at one corner of four ranges."""
+
+    by_eigenvalues = False
+
+    def __init__(self, **corner):
+        self.corner = corner
+
+    def of(self, sets):
+        there = np.all([np.isclose(sets.whole(name), end) for name, end in self.corner.items()], axis=0)
+        return np.where(there, 0.8, 1 + 0.0005 * sets.whole("v"))
+
+    def exceeds(self, sets, level):
+        return self.of(sets) > level, np.ones(sets.size, dtype=bool)
+
+
+@pytest.mark.parametrize("conicity", [0.1, 0.2])
+@pytest.mark.parametrize("v", [40.0, 80.0])
+def test_a_corner_is_found_though_thousands_of_conditions_are_nearly_as_low(v, conicity):
+    ranges = {"lambda": {"min": 0.1, "max": 0.2}, "K_1x": {"min": 3e7, "max": 5e7}, "K_1y": {"min": 5e6, "max": 7e6}}
+    problem = yd.table1().replace(conditions=ranges, speed={"min": "40 m/s", "max": "80 m/s"})
+    model, p, conditions, _ = asked(problem)
+    corner = {"lambda": conicity, "K_1x": 3e7, "K_1y": 7e6}
+    found = worst_conditions(model, p | {"C_s": 1e6}, conditions, OneLowCorner(v=v, **corner))[0]
+    assert found.margin == 0.8
+    assert found.condition.described == pytest.approx({"speed": v, **corner})

@@ -28,6 +28,7 @@ MOST_SLOW_POINTS = 2_000  # the same where eigenvalues give the verdicts
 LEAST_POINTS = 16  # for each combination of lists
 SAMPLE = 64  # margins that are computed to lower the level
 FEW = 192  # conditions of which the margins are all computed
+SOME = 10 * FEW  # of more of them only some, where ranges are searched further
 MOST_LOOKS = 12
 SLACK = 0.1  # of the lowest margin: conditions with so much more are starts too
 STARTS = 5  # conditions from which the lowest margin nearby is looked for
@@ -131,19 +132,32 @@ def _sets(model: Model, p: dict[str, Any], conditions: ConditionSet, place: Inde
 def _low_margins(measure: Measure, sets: ParameterSets, *, some: bool) -> Float:
     """Return the margins of those vehicles that have the lowest ones, or of some of them; infinity for others."""
     rng = np.random.default_rng(0)
-    margin, left = np.full(sets.size, np.inf), np.arange(sets.size)
+    margin = np.full(sets.size, np.inf)
+    left = _not_above(measure, sets, margin, np.arange(sets.size), SLACK, rng)
+    if some and len(left) > SOME:  # many are nearly as low, or unstable ones have no verdict
+        lowest = _not_above(measure, sets, margin, left, 0.0, rng)
+        left = rng.choice(left, SOME, replace=False)
+        left = left if len(lowest) > SOME else np.union1d(lowest, left)
+    margin[left] = measure.of(sets.part(left))
+    return margin
+
+
+def _not_above(
+    measure: Measure, sets: ParameterSets, margin: Float, left: Index, slack: float, rng: np.random.Generator
+) -> Index:
+    """Return those of the vehicles left whose margins may be below the least of samples; those of samples are noted.
+
+    A slack, relative to that least margin, keeps those that are a little above too.
+    """
     for _ in range(MOST_LOOKS):
         if len(left) <= FEW:
             break
         sample = rng.choice(left, SAMPLE, replace=False)
         margin[sample] = measure.of(sets.part(sample))
         least = margin.min()
-        yes, sure = measure.exceeds(sets.part(left), least + SLACK * abs(least))
+        yes, sure = measure.exceeds(sets.part(left), least + slack * abs(least))
         left = left[~(yes & sure)]
-    if some and len(left) > 10 * FEW:  # many are equally low, or unstable ones have no verdict
-        left = rng.choice(left, 10 * FEW, replace=False)
-    margin[left] = measure.of(sets.part(left))
-    return margin
+    return left
 
 
 def _starts(conditions: ConditionSet, place: Index, x: Float, margin: Float) -> Iterator[int]:
