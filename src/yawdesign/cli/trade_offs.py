@@ -80,7 +80,6 @@ def _outputs(
             result.to_csv(table, replace=force)
             tell_written(table)
         write_result(result, workbook, force)
-        if result.front:
-            write_drawing(result, picture, force)
+        write_drawing(result, picture, force)
 
     return write

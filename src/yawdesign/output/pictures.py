@@ -34,6 +34,10 @@ WIDEST = 200.0  # ratio up to which a logarithmic axis has numbers between the p
 TEXTS = {"text.usetex": False, "text.parse_math": True, **SETTINGS}
 
 
+class NothingToDrawError(ProblemError):
+    """An answer that has nothing of what its picture shows."""
+
+
 @contextmanager
 def own_texts() -> Iterator[None]:
     """Let Matplotlib set the texts that are made meanwhile, and draw in the style of this package."""
