@@ -136,3 +136,11 @@ def test_a_link_that_leads_nowhere(to, message, force):
     refused = run("modes", "p.yaml", "--plot", "x.svg", *force, code=2)
     assert message.format(here=Path.cwd()) in refused.stderr
     assert sorted(x.name for x in Path().iterdir()) == ["p.yaml", "x.svg"]
+
+
+@pytest.mark.parametrize("force", [(), ("--force",)])
+@pytest.mark.parametrize("command", [("sweep", "--over", "v=200 km/h:300 km/h:2"), ("trade-off",)])
+def test_a_table_and_a_workbook_are_two_files(command, force):
+    refused = run(command[0], "p.yaml", *command[1:], "--csv", "x.xlsx", "--xlsx", "x.xlsx", *force, code=2)
+    assert "--xlsx: x.xlsx is also the file of --csv" in refused.stderr
+    assert [x.name for x in Path().iterdir()] == ["p.yaml"]

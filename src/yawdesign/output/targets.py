@@ -8,6 +8,7 @@ from pathlib import Path
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.whole_files import is_stream, place_of
+from yawdesign.problem.workbook import ENDING, openpyxl
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,19 @@ class Target:
     name: str | None
     endings: tuple[str, ...] = ()
     replaced: bool = False
+
+
+def workbook_target(name: str | None, replaced: bool) -> Target:
+    """Return the workbook that --xlsx names.
+
+    Raises
+    ------
+    ProblemError
+        If there is one, and the library that writes it is not installed.
+    """
+    if name:
+        openpyxl()
+    return Target("--xlsx", name, (ENDING,), replaced)
 
 
 def checked_targets(targets: Iterable[Target], inputs: Iterable[str]) -> list[Path | None]:
