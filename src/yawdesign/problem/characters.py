@@ -37,6 +37,17 @@ def is_refused(char: str) -> bool:
     return no_character or unicodedata.category(char) in ("Cc", "Cs", "Zl", "Zp")
 
 
+def joined(text: str) -> str:
+    r"""Return a text in which both halves of a character, as JSON escapes write it, are that character.
+
+    Examples
+    --------
+    >>> joined("\ud83d\ude84") == "\U0001f684"
+    True
+    """
+    return text.encode("utf-16-le", "surrogatepass").decode("utf-16-le", "surrogatepass")
+
+
 def visible(text: str) -> str:
     r"""Return a text with every refused character as its escape sequence, so that a terminal shows it.
 
