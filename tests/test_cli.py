@@ -1,5 +1,6 @@
 """The command line: exit codes, JSON by the contract, messages, and what is not imported."""
 
+import builtins
 import json
 import os
 import re
@@ -250,3 +251,20 @@ def test_a_request_to_stop_ends_any_command_tidily(number, tmp_path, monkeypatch
     assert capsys.readouterr().err == "interrupted\n"
     assert list(tmp_path.iterdir()) == []
     assert [signal.getsignal(x) for x in signal.valid_signals()] == before
+
+
+def test_a_request_to_stop_while_the_program_starts_has_no_traceback(monkeypatch, capsys):
+    asked, imported = [], builtins.__import__
+
+    def importing(name, *more):
+        if name == "yawdesign.problem.stopping" and not asked:
+            asked.append(name)
+            raise KeyboardInterrupt
+        return imported(name, *more)
+
+    monkeypatch.setattr("yawdesign.problem.stopping.ignore_requests", lambda: None)
+    monkeypatch.setattr(builtins, "__import__", importing)
+    with pytest.raises(SystemExit) as caught:
+        main()
+    assert caught.value.code == 130
+    assert capsys.readouterr().err == "interrupted\n"

@@ -80,3 +80,12 @@ def test_what_was_written_is_said(command, files, run, tmp_path):
     told = [Path(line.removeprefix("wrote ")).name for line in done.stderr.splitlines() if line.startswith("wrote ")]
     assert told == list(files.values())
     assert "wrote" not in done.stdout
+
+
+@pytest.mark.parametrize("command", ["optimise", "trade-off"])
+def test_an_answer_without_a_picture_is_shown(command, run, tmp_path):
+    done = run(command, "--set", "limit=0.001", "--plot", tmp_path / "a.svg", "--json")
+    assert done.exit_code == 1
+    assert json.loads(done.stdout)["status"] == "infeasible"
+    assert f"note: {tmp_path / 'a.svg'} is not written: there is nothing to draw: infeasible" in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["p.yaml"]

@@ -51,6 +51,7 @@ def test_a_sweep_without_its_streams(command, code, message, tmp_path):
         (f"check {PROBLEM} >/dev/full", 2),
         (f"stability {PROBLEM} >/dev/full", 2),
         (f"stability {PROBLEM} --json >&-", 2),
+        ("schema >/dev/full", 2),
         ("schema >/dev/full 2>/dev/full", 2),
         ("stability missing.yaml 2>/dev/full", 2),
         ("stability missing.yaml >&- 2>&-", 2),

@@ -1,7 +1,9 @@
 """Texts that a user, or somebody whose file a user opens, may write: shown as text by every command and picture."""
 
+import csv
 import json
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 from xml.etree import ElementTree
@@ -182,3 +184,24 @@ def test_films(text, file, tmp_path):
     page = Texts(yd.animate(modes)._repr_html_())
     assert page.elements == {"iframe"}
     assert "sandbox" in page.attributes
+
+
+FORMULAS = ("=1+1", "+1", "-1", "@SUM(A1)", "a,=1+1", "b;@x")
+
+
+@pytest.mark.parametrize("name", FORMULAS)
+def test_no_cell_of_a_table_is_a_formula(name, tmp_path):
+    loads = {name: {"W": "210 kN"}, f"{name} 2": {"W": "190 kN"}}
+    problem = yd.table1().replace(title=name, conditions={"load": loads})
+    result = yd.sweep(problem, of="stable", C_s=[1e5, 1e6])
+    result.to_csv(tmp_path / "sweep.csv")
+    lines = (tmp_path / "sweep.csv").read_text(encoding="utf-8").splitlines()
+    assert json.loads(lines[1].removeprefix("# "))["problem"]["title"] == name
+    point = {"rotational_resistance": 0.05, "margin": 1.0, "C_s": 1e6, "stable": True, "checked": True}
+    point |= {"requirements": (), "worst_condition": {"speed": 80.0, "load": name}}
+    front = yd.trade_off(yd.table1().replace(limit=0.001), points=2)
+    replace(front, front=(point,)).to_csv(tmp_path / "front.csv")
+    cells = [cell for line in lines for mark in ",;" for cell in next(csv.reader([line], delimiter=mark))]
+    with (tmp_path / "front.csv").open(encoding="utf-8", newline="") as file:
+        cells += [cell for row in csv.reader(file) for cell in row]
+    assert [cell for cell in cells if cell[:1] in ("=", "+", "@") or cell[:2] == "-1"] == []

@@ -282,7 +282,7 @@ def test_mistakes_are_exit_code_2(tmp_path, options, message):
 def test_a_place_is_looked_at_before_the_work(tmp_path, monkeypatch):
     monkeypatch.setattr("yawdesign.exports.write.functions_of", None)
     (tmp_path / "mine").write_text("")
-    for place, message in ((tmp_path / "no" / "such", "No such file or directory"), (tmp_path, "is not empty")):
+    for place, message in ((tmp_path / "no" / "such", "there is no folder"), (tmp_path, "is not empty")):
         done = run("--to", place)
         assert (done.exit_code, message in done.stderr) == (2, True), done.output
 
@@ -292,7 +292,9 @@ def test_places_that_cannot_be_used(tmp_path, monkeypatch):
     assert "is a file" in run("--to", tmp_path / "file").stderr
     missing = run("--to", tmp_path / "no" / "such")
     assert missing.exit_code == 2
-    assert f"No such file or directory: {tmp_path / 'no' / 'such'}" in missing.stderr
+    assert f"{tmp_path / 'no' / 'such'}: there is no folder {tmp_path / 'no'}" in missing.stderr
+    (tmp_path / "link").symlink_to(tmp_path / "no" / "such")
+    assert "link is a link to what is not there" in run("--to", tmp_path / "link").stderr
 
     def refuse(*arguments, **options):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), "elsewhere")

@@ -87,6 +87,12 @@ def test_frequency_on_a_logarithmic_axis(over_damping, over_speed):
     assert yd.plot(over_speed, of="frequency").get_xscale() == "linear"
 
 
+def test_paths_from_zero_have_a_linear_axis():
+    for values in (np.linspace(0, 0.4, 5), np.linspace(0.4, 0, 5)):
+        ax = mode_paths(yd.follow_modes(yd.table1(), **{"lambda": values}), of="frequency")
+        assert ax.get_xscale() == "linear"
+
+
 def test_wrong_options(over_speed):
     with pytest.raises(yd.ProblemError, match="is not one of: root_locus"):
         mode_paths(over_speed, of="locus")

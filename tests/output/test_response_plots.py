@@ -152,6 +152,16 @@ def test_pictures_of_a_vehicle(vehicle):
     assert response.get_ylabel() == "Lateral [m per\nm of alignment]"
 
 
+def test_many_speeds_leave_room_for_their_curves(vehicle):
+    one = yd.simulate(vehicle, duration=0.5, start="rest", speed=50)
+    (history,), (run,) = one.histories, one.runs
+    many = {"histories": [replace(history, speed=50 + k) for k in range(11)]}
+    many |= {"runs": [replace(run, speed=50 + k) for k in range(11)]}
+    ax = yd.plot(replace(one, **many))
+    ax.figure.draw_without_rendering()  # it warns where a layout does not fit
+    assert ax.get_window_extent().height > 0.25 * ax.figure.bbox.height
+
+
 def test_tables_of_a_vehicle(vehicle):
     text = printed(simulation_tables(yd.simulate(vehicle, duration=5)))
     for part in ("y_c1_acceleration", "W_d of ISO", "phi_m22", "to order (leading bogie)", "to order (trailing bogie)"):

@@ -121,3 +121,26 @@ def test_an_empty_name_is_no_name(option):
 )
 def test_an_empty_name_is_no_name_of_other_outputs(arguments):
     assert "is empty: give the name of a file" in run(*arguments, code=2).stderr
+
+
+@pytest.mark.parametrize("force", [(), ("--force",)])
+@pytest.mark.parametrize(
+    ("to", "message"),
+    [
+        ("nowhere/y.svg", "x.svg is a link to {here}/nowhere/y.svg: there is no folder {here}/nowhere"),
+        ("x.svg", "x.svg is a link that leads to itself"),
+    ],
+)
+def test_a_link_that_leads_nowhere(to, message, force):
+    Path("x.svg").symlink_to(to)
+    refused = run("modes", "p.yaml", "--plot", "x.svg", *force, code=2)
+    assert message.format(here=Path.cwd()) in refused.stderr
+    assert sorted(x.name for x in Path().iterdir()) == ["p.yaml", "x.svg"]
+
+
+@pytest.mark.parametrize("force", [(), ("--force",)])
+@pytest.mark.parametrize("command", [("sweep", "--over", "v=200 km/h:300 km/h:2"), ("trade-off",)])
+def test_a_table_and_a_workbook_are_two_files(command, force):
+    refused = run(command[0], "p.yaml", *command[1:], "--csv", "x.xlsx", "--xlsx", "x.xlsx", *force, code=2)
+    assert "--xlsx: x.xlsx is also the file of --csv" in refused.stderr
+    assert [x.name for x in Path().iterdir()] == ["p.yaml"]

@@ -2,6 +2,7 @@
 
 import contextlib
 import errno
+import json
 import os
 import re
 import subprocess
@@ -548,3 +549,12 @@ def test_this_room_imports_no_other():
     for path in source.glob("*.py"):
         text = path.read_text(encoding="utf-8")
         assert not re.search(r"^\s*(from|import) (\.\.|yawdesign)", text, re.MULTILINE), path.name
+
+
+def test_escapes_of_json_are_characters():
+    data = {"title": "\U0001f684 1", "bogie": {"base": "table1"}, "speed": 80, "cases": {"\U0001f527": {"C_t": "0 %"}}}
+    problem = loads(json.dumps(data))
+    assert problem.title == data["title"]
+    assert [case.name for case in problem.cases] == list(data["cases"])
+    with pytest.raises(ProblemError, match="U\\+D83D, which is no character"):
+        loads(json.dumps(data).replace("\\ude84", ""))

@@ -2,6 +2,7 @@
 
 import signal
 import threading
+import time
 
 import pytest
 
@@ -44,6 +45,27 @@ def test_a_further_request_does_not_disturb_what_the_first_one_ends():
     with pytest.raises(Stopped), watched():
         work()
     assert ended == [None]
+
+
+SWALLOWING = """
+def converted():
+    try:
+        signal.raise_signal(signal.SIGINT)
+    except BaseException:
+        pass
+"""
+
+
+def test_a_request_inside_a_library_that_swallows_it_is_made_again():
+    library = {"__name__": "casadi.casadi", "signal": signal}
+    exec(SWALLOWING, library)
+    start, done = time.monotonic(), []
+    with pytest.raises(Stopped), watched():
+        done += [library["converted"](), time.sleep(20)]
+    assert time.monotonic() - start < 10
+    with pytest.raises(Stopped), held():
+        done += [library["converted"]()]
+    assert done == [None]
 
 
 def test_a_request_can_be_taken():

@@ -139,6 +139,7 @@ def test_degrees_are_the_double_of_pi():
         ("3 kNs/m", "did you mean kN s?"),
         ("3 kgm2", "did you mean kg m?"),
         ("3 Nmm", "did you mean N mm?"),
+        ("3 kgg", "did you mean kg?"),
         ("3 kp/mm", "did you mean kgf?"),
         ("3 .kN", "not one number"),
         ("3 kN. s", "not part of a unit"),

@@ -1,6 +1,7 @@
 """Workbooks: a problem goes there and comes back the same, and every mistake has its cell."""
 
 import builtins
+import datetime
 import io
 import json
 import re
@@ -120,6 +121,26 @@ def test_mistakes_have_their_cells(changed, cells, message):
     assert problem is None
     assert any(message in line for line in told), told
     assert all(line.count("\n") == 0 for line in told)
+
+
+@pytest.mark.parametrize(
+    "cells",
+    [
+        {"bogie_M_b": {"value": "=1+1"}},
+        {"bogie_M_b": {"value": datetime.date(2024, 5, 1)}},
+        {"bogie_M_b": {"unit": "#N/A"}},
+        {"bogie_M_b": {"value": "5 m", "unit": "kg"}},
+        {"speed": {"value": "[200 km/h"}},
+        {"speed": {"value": "#REF!"}},
+        {"curve_R": {"value": "=A1"}},
+        {"bogie_kind": {"value": "=A1"}},
+        {"design_variables_C_s_max": {"value": "=A1"}},
+    ],
+)
+def test_one_mistake_is_told_once(changed, cells):
+    problem, told = changed(**cells)
+    assert problem is None
+    assert len(told) == 1, told
 
 
 def test_all_mistakes_come_at_once(changed):

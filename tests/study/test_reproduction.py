@@ -2,6 +2,7 @@
 
 import json
 import math
+import signal
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 import yawdesign as yd
 from yawdesign.output import reproduction_folder
+from yawdesign.problem.stopping import Stopped
 from yawdesign.study import reproduction as study
 from yawdesign.study.paper_bogie import paper_bogie
 from yawdesign.study.reproduced_table_2 import readings
@@ -29,6 +31,14 @@ def value(result, where, what, equations=None):
     rows = [x for x in rows if equations is None or x.equations == equations]
     assert len(rows) == 1, [x.what for x in rows]
     return rows[0].computed
+
+
+def test_a_request_to_stop_is_no_sweep_that_is_not_finished(monkeypatch):
+    for name in ("figure_2", "table_2", "equations_9_11"):
+        monkeypatch.setattr(study, name, lambda *given: ())
+    monkeypatch.setattr("yawdesign.study.sweep.fill", lambda *given: Stopped(signal.SIGTERM))
+    with pytest.raises(Stopped):
+        study.reproduction()
 
 
 def test_all_rows_agree_and_are_checked(reproduced):

@@ -48,12 +48,14 @@ def main() -> None:
     """Run the command line; no request to stop, and no answer that cannot be written, ends it with a traceback."""
     open_streams()
     os.environ["MPLBACKEND"] = "agg"  # pictures are files: no window, whatever a user has set
-    from yawdesign.problem.stopping import ignore_requests, watched
-
     try:
+        from yawdesign.problem.stopping import watched
+
         with watched():
             app()
     except KeyboardInterrupt as error:
+        from yawdesign.problem.stopping import ignore_requests
+
         ignore_requests()
         tell(told(error))
         sys.exit(code_of(error))

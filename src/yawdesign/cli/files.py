@@ -116,7 +116,7 @@ def check(file: ProblemFile, changes: Changes = None, as_json: AsJson = False) -
 def schema() -> None:
     """Print the JSON Schema of the problem file, for editors."""
     with mistakes_told():
-        typer.echo(_schema_text(), nl=False)
+        write_answer(_schema_text())
 
 
 def _schema_text() -> str:

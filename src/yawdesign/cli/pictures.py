@@ -23,14 +23,17 @@ def checked_picture(file: str, plot: str | None, force: bool) -> Path | None:
 
 
 def write_drawing(result: Any, path: Path | None, force: bool, **options: Any) -> None:
-    """Draw a result into a file, if there is one, and say so."""
+    """Draw a result into a file, if there is one, and say so; where there is nothing to draw, say that and go on."""
     if path is None:
         return
-    from yawdesign.output.pictures import write_picture
+    from yawdesign.output.pictures import NothingToDrawError, write_picture
     from yawdesign.output.plots import plot
 
-    write_picture(plot(result, **options), path, replace=force)
-    tell_written(path)
+    try:
+        write_picture(plot(result, **options), path, replace=force)
+        tell_written(path)
+    except NothingToDrawError as error:
+        tell(f"note: {path} is not written: {error.diagnostics[0].message}")
 
 
 def tell_written(*paths: Path | None) -> None:

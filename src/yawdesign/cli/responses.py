@@ -16,7 +16,7 @@ from yawdesign.cli.answering import (
     show,
 )
 from yawdesign.cli.asked_condition import AskedCondition, asked_condition, tell_condition
-from yawdesign.cli.pictures import tell_written
+from yawdesign.cli.pictures import tell_written, write_drawing
 
 if TYPE_CHECKING:
     from yawdesign.problem import Problem
@@ -139,7 +139,7 @@ def modes(
 ) -> None:
     """Show all modes by name: frequency, damping, what takes part; follow them over speed or any parameter."""
     with mistakes_told():
-        from yawdesign.output import pictures, plots
+        from yawdesign.output import pictures
         from yawdesign.output.targets import Target, checked_targets
 
         drawn = Target("--plot", plot, pictures.PICTURES, force), Target("--to", to, pictures.ANIMATIONS, force)
@@ -158,12 +158,12 @@ def modes(
         if to_plot:
             along = {"of": of or "root_locus", "target": _required_damping(problem)}
             options: dict[str, Any] = along if over else {"mode": animate or None}
-            pictures.write_picture(plots.plot(result, **options), to_plot, replace=force)
+            write_drawing(result, to_plot, force, **options)
         if to_animate:
             from yawdesign.output.animation import animate as write_animation
 
             write_animation(result, to_animate, mode=animate or None, replace=force)
-        tell_written(to_plot, to_animate)
+        tell_written(to_animate)
         tell_condition(problem, result)
         show(result, as_json)
     raise ended(checked=result.checked, feasible=bool(over) or result.stable)

@@ -18,7 +18,7 @@ from yawdesign.cli.answering import (
     warnings_told,
 )
 from yawdesign.cli.pictures import Plot, tell_written
-from yawdesign.cli.workbooks import Xlsx, checked_workbook, write_result
+from yawdesign.cli.workbooks import Xlsx
 from yawdesign.output.streams import tell
 
 
@@ -55,16 +55,14 @@ def sweep(
         from yawdesign.study.sweep import answered
 
         asked = request(problem, of, [(name, values) for name, _, values in (x.partition("=") for x in over)], hold)
-        outputs = Outputs.checked(file, asked.axes, csv=csv, npz=npz, plot=plot, resume=resume, force=force)
-        workbook = checked_workbook(file, xlsx, force)
+        outputs = Outputs.checked(file, asked.axes, csv=csv, npz=npz, plot=plot, xlsx=xlsx, resume=resume, force=force)
         with workers(jobs, dask) as executor, held():
             try:
                 with outputs.rescuing(), progress_shown() as progress, warnings_told():
                     result = answered(asked, executor=executor, resume=resume, progress=progress)
                 with outputs.rescuing(result):
                     outputs.write(result)
-                    write_result(result, workbook, force)
-                    tell_written(outputs.csv, outputs.npz, outputs.picture)
+                    tell_written(outputs.csv, outputs.npz, outputs.picture, outputs.workbook)
                     with let_through():
                         show(result, as_json, indent=None)
             except RescuedError as error:

@@ -20,7 +20,7 @@ from yawdesign.cli.answering import (
     show,
 )
 from yawdesign.cli.pictures import Plot, tell_written, write_drawing
-from yawdesign.cli.workbooks import Xlsx, checked_workbook, write_result
+from yawdesign.cli.workbooks import Xlsx, write_result
 from yawdesign.output.streams import tell
 
 if TYPE_CHECKING:
@@ -68,19 +68,17 @@ def _outputs(
 ) -> "Callable[[TradeOff], None]":
     """Return what writes the files, if they can be written: better known now than after the work."""
     from yawdesign.output.pictures import PICTURES, check_pictures
-    from yawdesign.output.targets import Target, checked_targets
+    from yawdesign.output.targets import Target, checked_targets, workbook_target
 
-    targets = (Target("--csv", csv, replaced=force), Target("--plot", plot, PICTURES, replaced=force))
-    table, picture = checked_targets(targets, [file])
+    files = Target("--csv", csv, replaced=force), Target("--plot", plot, PICTURES, replaced=force)
+    table, picture, workbook = checked_targets((*files, workbook_target(xlsx, force)), [file])
     check_pictures(picture)
-    workbook = checked_workbook(file, xlsx, force)
 
     def write(result: "TradeOff") -> None:
         if table is not None:
             result.to_csv(table, replace=force)
             tell_written(table)
         write_result(result, workbook, force)
-        if result.front:
-            write_drawing(result, picture, force)
+        write_drawing(result, picture, force)
 
     return write

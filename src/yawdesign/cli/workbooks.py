@@ -12,12 +12,9 @@ Xlsx = Annotated[str | None, typer.Option("--xlsx", metavar="FILE", help="Write 
 
 def checked_workbook(file: str, xlsx: str | None, force: bool) -> Path | None:
     """Return the workbook to write, if it can be written: better known now than after the work."""
-    from yawdesign.output.targets import Target, checked_targets
-    from yawdesign.problem.workbook import ENDING, openpyxl
+    from yawdesign.output.targets import checked_targets, workbook_target
 
-    (workbook,) = checked_targets([Target("--xlsx", xlsx, (ENDING,), replaced=force)], [file])
-    if workbook is not None:
-        openpyxl()
+    (workbook,) = checked_targets([workbook_target(xlsx, force)], [file])
     return workbook
 
 

@@ -12,6 +12,7 @@ from yawdesign.damper.design_space import Space
 from yawdesign.damper.least_resistance import resistances
 from yawdesign.hunting.all_conditions import Judged
 from yawdesign.hunting.requirements import requirement_verdicts
+from yawdesign.problem.characters import no_formula
 from yawdesign.problem.result import Result, plain
 from yawdesign.problem.whole_files import whole_file
 
@@ -69,7 +70,7 @@ class TradeOff(Result):
         return tuple(name for name in names if self.front[0][name] is not None)
 
     def to_csv(self, path: str | PathLike[str], *, replace: bool = False) -> None:
-        """Write a table with one line for each point, in SI units.
+        """Write a table with one line for each point, in SI units; loads that begin like formulas have a ' before them.
 
         Parameters
         ----------
@@ -94,8 +95,14 @@ class TradeOff(Result):
             rows.writerow([*columns, *(f"worst_{name}" for name in conditions)])
             for point in map(plain, self.front):
                 worst = point["worst_condition"]
-                rows.writerow([*(point[name] for name in columns), *(worst.get(name, "") for name in conditions)])
+                rows.writerow(
+                    [*(point[name] for name in columns), *(_cell(worst.get(name, "")) for name in conditions)]
+                )
             text.detach()
+
+
+def _cell(value: Any) -> Any:
+    return no_formula(value) if isinstance(value, str) else value
 
 
 def pareto(points: Iterable[Point]) -> tuple[Point, ...]:

@@ -1,8 +1,6 @@
 """A folder of exported files: written beside their place and moved there, foreign files untouched."""
 
-import errno
 import json
-import os
 import shutil
 import tempfile
 import time
@@ -65,7 +63,9 @@ def exported_folder(to: Path, *, force: bool, generator: str = GENERATOR) -> Ite
 def check_place(to: Path, *, force: bool, generator: str = GENERATOR) -> None:
     """Raise an error if an export cannot go to a place; arguments as in `exported_folder`."""
     if not to.absolute().parent.is_dir():
-        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(to))
+        raise ProblemError(f"{to}: there is no folder {to.parent}")
+    if to.is_symlink() and not to.exists():
+        raise ProblemError(f"{to} is a link to what is not there: give the name of a folder")
     if to.exists() and not to.is_dir():
         raise ProblemError(f"{to} is a file: give the name of a folder")
     if to.exists() and not force and _contents(to, generator):

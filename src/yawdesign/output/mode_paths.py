@@ -69,9 +69,10 @@ class Paths:
     @property
     def geometric(self) -> bool:
         """Whether the values have equal ratios, over a wide range."""
+        if not np.all(self.values > 0):
+            return False
         ratio = self.values[1:] / self.values[:-1]
-        equal = np.all(self.values > 0) and np.allclose(ratio, ratio[0], rtol=1e-6)
-        return bool(equal and abs(np.log(ratio.prod())) > 2)
+        return bool(np.allclose(ratio, ratio[0], rtol=1e-6) and abs(np.log(ratio.prod())) > 2)
 
     @property
     def held(self) -> str:

@@ -7,10 +7,10 @@ import numpy as np
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.label_places import Named, names_beside
 from yawdesign.output.mode_paths import Paths
-from yawdesign.output.pictures import legend_below, new_axes, put_title
+from yawdesign.output.pictures import NothingToDrawError, legend_below, new_axes, put_title
 from yawdesign.output.root_locus import draw_root_locus
 from yawdesign.output.style import BECOMES, BECOMES_DASHES, LIMIT, UNSTABLE, span
-from yawdesign.problem import ProblemError, format_quantity
+from yawdesign.problem import format_quantity
 from yawdesign.problem.table import as_choice
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def mode_paths(
     ax = new_axes(ax)
     paths = Paths.of(result, widest)
     if not paths.shown:
-        raise ProblemError(f"all modes decay faster than {widest:g} 1/s: give a larger `widest`")
+        raise NothingToDrawError(f"all modes decay faster than {widest:g} 1/s: give a larger `widest`")
     if of == "root_locus":
         return draw_root_locus(paths, ax, widest, target)
     return _over_parameter(paths, ax, of, target)
@@ -62,7 +62,7 @@ def _over_parameter(paths: Paths, ax: "Axes", of: str, target: float | None) -> 
     curves = np.where(result.frequency > 0, curves, np.nan)
     waving = [k for k in paths.shown if np.any(result.frequency[:, k] > 0)]
     if not waving:
-        raise ProblemError(f"no mode that is drawn oscillates: {', '.join(map(paths.name, paths.shown))}")
+        raise NothingToDrawError(f"no mode that is drawn oscillates: {', '.join(map(paths.name, paths.shown))}")
     for k in waving:
         ax.plot(paths.values, curves[:, k], label="_", **paths.look(k))
     ax.set(xlabel=paths.label, xlim=(min(paths.values), max(paths.values)))

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from yawdesign.damper.status import Status
-from yawdesign.output.pictures import legend_below, new_axes, set_title
+from yawdesign.output.pictures import NothingToDrawError, legend_below, new_axes, set_title
 from yawdesign.output.style import BEFORE, CHOSEN, HALO, REST
 from yawdesign.output.tables import margin
-from yawdesign.problem import PARAMETERS, ProblemError, format_quantity, to_unit
+from yawdesign.problem import PARAMETERS, format_quantity, to_unit
 from yawdesign.problem.quantities import format_number
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def draw_optimum(result: "Optimum", ax: "Axes | None" = None) -> "Axes":
         Where to draw.
     """
     if result.margin is None:
-        raise ProblemError(f"there is nothing to draw: {result.status}: {result.message}")
+        raise NothingToDrawError(f"there is nothing to draw: {result.status}: {result.message}")
     given, ax = ax, new_axes(ax)
     names = list(result.bounds)
     if given is None:

@@ -34,6 +34,10 @@ WIDEST = 200.0  # ratio up to which a logarithmic axis has numbers between the p
 TEXTS = {"text.usetex": False, "text.parse_math": True, **SETTINGS}
 
 
+class NothingToDrawError(ProblemError):
+    """An answer that has nothing of what its picture shows."""
+
+
 @contextmanager
 def own_texts() -> Iterator[None]:
     """Let Matplotlib set the texts that are made meanwhile, and draw in the style of this package."""
@@ -143,8 +147,8 @@ def _room(ax: "Axes") -> float:
     return float(72.0 * figure.get_figwidth() * min(1.0, width / (pars.right - pars.left)))
 
 
-def legend_below(ax: "Axes", handles: "list[Any] | None" = None, *, left: float = MARGIN) -> None:
-    """Explain a picture below it, where it covers nothing, in as many columns as fit.
+def legend_below(ax: "Axes", handles: "list[Any] | None" = None, *, left: float = MARGIN) -> int:
+    """Explain a picture below it, where it covers nothing, in as many columns as fit; return how many lines it takes.
 
     Parameters
     ----------
@@ -159,7 +163,7 @@ def legend_below(ax: "Axes", handles: "list[Any] | None" = None, *, left: float 
 
     handles = ax.get_legend_handles_labels()[0] if handles is None else handles
     if not handles:
-        return
+        return 0
     under = 26 + 13 * (1 + ax.get_xlabel().count("\n")) if ax.get_xlabel() else 20
     figure = ax.get_figure(root=True)
     place = ax.transAxes + ScaledTranslation(0, -under / 72, figure.dpi_scale_trans)  # type: ignore[union-attr]
@@ -167,17 +171,20 @@ def legend_below(ax: "Axes", handles: "list[Any] | None" = None, *, left: float 
     signs = max(20, int((room - HANDLE) / SMALL_SIGN))
     labels = [wrapped(str(handle.get_label()), signs) for handle in handles]
     widths = [max(len(_seen(line)) for line in label.split("\n")) for label in labels]
+    count = _columns(widths, room)
     ax.legend(
         handles=handles,
         labels=labels,
         loc="upper left",
         bbox_to_anchor=(0.0, 0.0),
         bbox_transform=place,
-        ncols=_columns(widths, room),
+        ncols=count,
         borderaxespad=0.0,
         columnspacing=1.6,
         handlelength=2.4,
     )
+    rows = -(-len(labels) // count)
+    return max(sum(1 + x.count("\n") for x in labels[k : k + rows]) for k in range(0, len(labels), rows))
 
 
 def _columns(signs: list[int], room: float) -> int:

@@ -35,6 +35,10 @@ DETAIL = 5.0  # how much of a long run is drawn in detail [s]
 PARTS = 150  # of a long run, of each of which the largest and the least value are drawn
 SIGNS_BESIDE = 48  # of a label beside a picture
 HEIGHT_OF_PANEL, HEIGHT_OF_REST = 1.4, 1.5  # of a picture with a panel for each speed [inch]
+FEW_LINES, LINE = (
+    8,
+    0.18,
+)  # of a legend below a picture of the usual height; each further one [inch]
 STARTS = {"stationary": "stationary motion", "rest": "rest", "offset": "a displacement"}
 
 
@@ -109,8 +113,10 @@ def simulation(
     known = {str(x.get_label()): x for panel in panels for x in panel.get_legend_handles_labels()[0]}
     if len({curve.look["color"] for curve in curves}) == 1:  # a single curve is explained by the title
         known = {label: x for label, x in known.items() if label not in {curve.label for curve in curves}}
-    if handles := [*known.values()]:
-        legend_below(panels[-1], handles=handles)
+    lines = legend_below(panels[-1], handles=[*known.values()])
+    if ax is None and lines > FEW_LINES:
+        figure: Any = panels[0].get_figure(root=True)
+        figure.set_figheight(figure.get_figheight() + LINE * (lines - FEW_LINES))
     return panels[0]
 
 

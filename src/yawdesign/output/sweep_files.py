@@ -10,7 +10,7 @@ from yawdesign.output.pictures import PICTURES, check_pictures, write_picture
 from yawdesign.output.plots import plot as draw
 from yawdesign.output.streams import ANSWER
 from yawdesign.output.sweep_plots import check_drawn
-from yawdesign.output.targets import Target, checked_targets
+from yawdesign.output.targets import Target, checked_targets, workbook_target
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import Mistakes
 from yawdesign.problem.stopping import held, let_through
@@ -43,19 +43,20 @@ class Outputs:
 
     Parameters
     ----------
-    csv, npz, picture : Path or None
-        Table, arrays and picture.
+    csv, npz, picture, workbook : Path or None
+        Table, arrays, picture and workbook.
     resume : Path or None
         File that keeps the finished points anyway.
     problem_file : str
         After which a file is named that keeps them if something breaks.
     replace : bool
-        Whether tables, arrays and pictures that are there are replaced.
+        Whether tables, arrays, pictures and workbooks that are there are replaced.
     """
 
     csv: Path | None
     npz: Path | None
     picture: Path | None
+    workbook: Path | None
     resume: Path | None
     problem_file: str
     replace: bool
@@ -69,6 +70,7 @@ class Outputs:
         csv: str | None,
         npz: str | None,
         plot: str | None,
+        xlsx: str | None,
         resume: str | None,
         force: bool,
     ) -> "Outputs":
@@ -79,16 +81,18 @@ class Outputs:
                 Target("--csv", csv, replaced=force),
                 Target("--npz", npz, replaced=force),
                 Target("--plot", plot, PICTURES, replaced=force),
+                workbook_target(xlsx, force),
                 Target("--resume", resume, replaced=True),  # a file of another sweep is refused when it is read
             )
             checked_targets(targets, [problem_file])
-        table, arrays, picture, kept = (Path(name) if name else None for name in (csv, npz, plot, resume))
+        names = (csv, npz, plot, xlsx, resume)
+        table, arrays, picture, workbook, kept = (Path(name) if name else None for name in names)
         with mistakes.under("--plot"):
             if picture is not None:
                 check_drawn(axes)
                 check_pictures(picture)
         mistakes.report()
-        return cls(table, arrays, picture, kept, problem_file, force)
+        return cls(table, arrays, picture, workbook, kept, problem_file, force)
 
     def write(self, sweep: Sweep) -> None:
         """Write all files; if one cannot be drawn or written, the others are, and the first error is raised."""
@@ -97,6 +101,7 @@ class Outputs:
             (self.csv, sweep.to_csv),
             (self.npz, sweep.to_npz),
             (self.picture, lambda path, *, replace: write_picture(draw(sweep), path, replace=replace)),
+            (self.workbook, sweep.to_excel),
         ):
             try:
                 if path is not None:
@@ -158,7 +163,7 @@ class Outputs:
 
     def _force(self) -> str:
         """Return what allows the repeated command to replace the files that this one has written."""
-        written = any(path is not None and path.is_file() for path in (self.csv, self.npz, self.picture))
+        written = any(path is not None and path.is_file() for path in (self.csv, self.npz, self.picture, self.workbook))
         return " --force" if written else ""
 
 

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from yawdesign.problem import ProblemError
 from yawdesign.problem.diagnostics import Mistakes
-from yawdesign.problem.whole_files import is_stream
+from yawdesign.problem.whole_files import is_stream, place_of
+from yawdesign.problem.workbook import ENDING, openpyxl
 
 
 @dataclass(frozen=True)
@@ -30,6 +31,19 @@ class Target:
     name: str | None
     endings: tuple[str, ...] = ()
     replaced: bool = False
+
+
+def workbook_target(name: str | None, replaced: bool) -> Target:
+    """Return the workbook that --xlsx names.
+
+    Raises
+    ------
+    ProblemError
+        If there is one, and the library that writes it is not installed.
+    """
+    if name:
+        openpyxl()
+    return Target("--xlsx", name, (ENDING,), replaced)
 
 
 def checked_targets(targets: Iterable[Target], inputs: Iterable[str]) -> list[Path | None]:
@@ -72,7 +86,10 @@ def _check(path: Path, target: Target) -> None:
         raise ProblemError(f"{path}: there is no folder {path.parent}")
     if path.is_dir():
         raise ProblemError(f"{path} is a folder: give the name of a file")
-    if not os.access(path if is_stream(path) else path.resolve().parent, os.W_OK):
+    place = place_of(path)
+    if not place.parent.is_dir():
+        raise ProblemError(f"{path} is a link to {place}: there is no folder {place.parent}")
+    if not os.access(path if is_stream(path) else place.parent, os.W_OK):
         raise ProblemError(f"{path}: no permission to write")
     if os.path.lexists(path) and not target.replaced and not is_stream(path):
         raise ProblemError(f"{path} exists: choose another name, or give --force to replace it")
@@ -85,4 +102,4 @@ def _check_others(path: Path, others: Iterable[tuple[Path, str]]) -> None:
 
 
 def _same(one: Path, other: Path) -> bool:
-    return one.resolve() == other.resolve() or (one.exists() and other.exists() and one.samefile(other))
+    return os.path.realpath(one) == os.path.realpath(other) or (one.exists() and other.exists() and one.samefile(other))

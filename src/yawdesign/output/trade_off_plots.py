@@ -3,10 +3,10 @@
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.damper.curving import RAISING
-from yawdesign.output.pictures import large_numbers, legend_below, log_axis, new_axes, set_title
+from yawdesign.output.pictures import NothingToDrawError, large_numbers, legend_below, log_axis, new_axes, set_title
 from yawdesign.output.style import BEFORE, CHOSEN, CHOSEN_LINE, EXCLUDED, HALO, LIMIT_LINE, UNSTABLE, span
 from yawdesign.output.sweep_style import SHOWN, WIDE
-from yawdesign.problem import PARAMETERS, ProblemError, to_unit
+from yawdesign.problem import PARAMETERS, to_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,7 +31,7 @@ def draw_trade_off(result: "TradeOff", ax: "Axes | None" = None) -> "Axes":
         Where to draw the front alone.
     """
     if not result.front:
-        raise ProblemError(f"there is nothing to draw: {result.status}: {result.message}")
+        raise NothingToDrawError(f"there is nothing to draw: {result.status}: {result.message}")
     below: list[Axes] = []
     if ax is None:
         ax, below = _panels(len(result.variables))

@@ -9,9 +9,9 @@ import numpy as np
 from yawdesign.hunting.arrays import Array
 from yawdesign.output.mark_labels import MarkLabel, draw_labels
 from yawdesign.output.panels import divided
-from yawdesign.output.pictures import legend_below, new_axes, set_title, wrapped
+from yawdesign.output.pictures import NothingToDrawError, legend_below, new_axes, set_title, wrapped
 from yawdesign.output.style import BEFORE, CHOSEN, LESS_BAR, LIMIT, MORE, REST, STABLE, UNSTABLE, span
-from yawdesign.problem import PARAMETERS, ProblemError, to_unit
+from yawdesign.problem import PARAMETERS, to_unit
 from yawdesign.problem.condition import CREEP_FACTOR
 from yawdesign.problem.running import SPEED
 from yawdesign.problem.table import as_choice
@@ -83,7 +83,7 @@ def _tornado(result: "Uncertainty", ax: "Axes") -> list[MarkLabel]:
     """Draw the change of the margin for one standard deviation of each parameter to either side."""
     effects = _effects(result)
     if not effects:
-        raise ProblemError("there is nothing to draw: the margin has no derivatives")
+        raise NothingToDrawError("there is nothing to draw: the margin has no derivatives")
     unit = UNITS[result.objective]
     middle = to_unit(result.margin, unit)
     rows = range(len(effects))
@@ -108,7 +108,7 @@ def _distribution(result: "Uncertainty", ax: "Axes", of: str) -> list[MarkLabel]
     unit = UNITS[result.objective if of == "margin" else of]
     quantiles = [(to_unit(x, unit), level) for level, x in enumerate(result.quantiles[of]) if x is not None]
     if not quantiles:
-        raise ProblemError("there is nothing to draw: no C_s is stable for any sample")
+        raise NothingToDrawError("there is nothing to draw: no C_s is stable for any sample")
     values, levels = zip(*quantiles, strict=True)
     ends = _ends(values)
     shares = np.diff(np.interp(ends, values, levels))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import unicodedata
 
 _TURNS = "\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069"  # the direction of what follows
+_FORMULA = ("=", "+", "-", "@")  # with which a spreadsheet takes a text for a formula
 _LINE_ENDS = "\n\r\x0b\x0c\x85\u2028\u2029"
 
 
@@ -36,6 +37,17 @@ def is_refused(char: str) -> bool:
     return no_character or unicodedata.category(char) in ("Cc", "Cs", "Zl", "Zp")
 
 
+def joined(text: str) -> str:
+    r"""Return a text in which both halves of a character, as JSON escapes write it, are that character.
+
+    Examples
+    --------
+    >>> joined("\ud83d\ude84") == "\U0001f684"
+    True
+    """
+    return text.encode("utf-16-le", "surrogatepass").decode("utf-16-le", "surrogatepass")
+
+
 def visible(text: str) -> str:
     r"""Return a text with every refused character as its escape sequence, so that a terminal shows it.
 
@@ -58,6 +70,17 @@ def in_order(text: str) -> str:
     True
     """
     return "".join("\ufffd" if char in _TURNS or (char not in "\n\t" and is_refused(char)) else char for char in text)
+
+
+def no_formula(text: str) -> str:
+    """Return a text as a cell of a table that a spreadsheet shows, whatever it begins with, and does not compute.
+
+    Examples
+    --------
+    >>> no_formula("laden"), no_formula("=1+1")
+    ('laden', "'=1+1")
+    """
+    return f"'{text}" if text.startswith(_FORMULA) else text
 
 
 def printable(text: str) -> str:

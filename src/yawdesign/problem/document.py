@@ -22,7 +22,7 @@ from ruamel.yaml.events import (
 )
 from ruamel.yaml.reader import ReaderError
 
-from .characters import is_refused, refusal
+from .characters import is_refused, joined, refusal
 from .diagnostics import Diagnostic, ProblemError
 from .syntax import explained, parser, unified
 
@@ -195,12 +195,13 @@ class _Builder:
 
     def _checked(self, event: Any) -> str:
         """Return the text of a scalar; note characters that it must not hold, and leave them out."""
-        lines = event.value.replace("\n", " ")  # what is of one line is for those to say who use it
+        value = joined(event.value)
+        lines = value.replace("\n", " ")  # what is of one line is for those to say who use it
         why = refusal(lines)
         if why is None:
-            return str(event.value)
+            return value
         self.document.note(Node(*_span(event)), why, ".".join(self._around()))
-        return "".join(char for char in event.value if char == "\n" or not is_refused(char))
+        return "".join(char for char in value if char == "\n" or not is_refused(char))
 
     def _go_in(self, event: Any) -> None:
         self.open.append(_Open(event))

@@ -27,6 +27,21 @@ class SheetDocument(Document):
     """A workbook as a document: its nodes stand in cells, counted by `Node.start`."""
 
     cells: list[str] = field(default_factory=list)
+    told: set[str] = field(default_factory=set)
+
+    def note(
+        self, node: Node, message: str, key: str = "", severity: Literal["error", "warning"] = "error"
+    ) -> Diagnostic:
+        """Add a diagnostic about a cell, unless its mistake is told already."""
+        found = self._at(node, message, key, severity)
+        if found.cell not in self.told:
+            self.diagnostics.append(found)
+        return found
+
+    def wrong(self, node: Node) -> Scalar:
+        """Return what stands for a value whose mistake is told: its key is there, and nothing more is said of it."""
+        self.told.add(self.cells[node.start])
+        return Scalar(node.start, node.end)
 
     def _at(self, node: Node, message: str, key: str, severity: Literal["error", "warning"]) -> Diagnostic:
         cell = self.cells[min(node.start, len(self.cells) - 1)]
@@ -89,7 +104,7 @@ def _columns(document: SheetDocument, head: Row) -> dict[str, int]:
 
 
 def _entries(document: SheetDocument, rows: list[Row]) -> Iterator[tuple[Cell, Cell, Cell | None]]:
-    """Yield key, value and unit of each row that has a value."""
+    """Yield key, value and unit of each row that has a value, also one that is a mistake, which is told."""
     if not rows:
         return
     columns = _columns(document, rows[0])
@@ -101,7 +116,7 @@ def _entries(document: SheetDocument, rows: list[Row]) -> Iterator[tuple[Cell, C
         wrong = [cell for cell in (key, value, unit) if cell is not None and cell.kind == MISTAKE]
         for cell in wrong:
             document.note(document.place(cell), cell.text, key.text if key is not None and key is not cell else "")
-        if value is None or wrong:
+        if value is None or key in wrong or (key is None and wrong):
             continue
         if key is None:
             document.note(document.place(value), "has no key in front of it")
@@ -132,8 +147,6 @@ def path_of(key: str, *, whole: bool) -> tuple[str, ...]:
 def _add(document: SheetDocument, root: _Branch, key: Cell, value: Cell, unit: Cell | None) -> None:
     """Put the value of a row into the tree."""
     where, node = document.place(key), _value(document, value, unit, key.text)
-    if node is None:
-        return
     path, branch = path_of(key.text, whole=isinstance(node, Mapping)), root
     for k, part in enumerate(path[:-1]):
         inner = branch.values.setdefault(part, _Branch(where))
@@ -150,9 +163,11 @@ def _add(document: SheetDocument, root: _Branch, key: Cell, value: Cell, unit: C
     branch.keys[path[-1]], branch.values[path[-1]] = where, node
 
 
-def _value(document: SheetDocument, value: Cell, unit: Cell | None, key: str) -> Node | None:
+def _value(document: SheetDocument, value: Cell, unit: Cell | None, key: str) -> Node:
     """Return the node of a value: lists and ranges are written as in a problem file, [0.1, 0.2] or {min: 1, max: 2}."""
     where = document.place(value)
+    if MISTAKE in (value.kind, unit.kind if unit else None):
+        return document.wrong(where)
     if value.kind != TEXT or key == "title" or not value.text.startswith(("[", "{")):
         node: Node = Scalar(where.start, where.end, text=value.text, plain=key != "title")
     else:
@@ -160,7 +175,7 @@ def _value(document: SheetDocument, value: Cell, unit: Cell | None, key: str) ->
             node = _moved(compose(value.text, document.path).root, where)
         except ProblemError as error:
             document.note(where, error.diagnostics[0].message, key)
-            return None
+            return document.wrong(where)
     return _with_unit(document, node, unit, key) if unit else node
 
 
@@ -190,7 +205,7 @@ def _with_unit(document: SheetDocument, node: Node, unit: Cell, key: str) -> Nod
         return node  # a word such as rigid, or what is wrong with it is told later
     if own:
         document.note(node, f"{shown(node.text)} has a unit, and another one stands beside it: {shown(unit.text)}", key)
-        return node
+        return document.wrong(node)
     return replace(node, text=node.text if unit.text == "-" else f"{node.text} {unit.text}")
 
 

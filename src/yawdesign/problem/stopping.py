@@ -4,14 +4,17 @@ Inside `held` they wait; inside `let_through` they end the work at once with `St
 other. Only the main thread gets signals, so in other threads both do nothing. A program's own handlers stay.
 """
 
+import _thread
 import signal
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
-from typing import Any
+from types import FrameType
 
 SIGNALS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name))
 USUAL = (signal.SIG_DFL, signal.default_int_handler)
+SWALLOWS = "casadi"  # whose conversions of numbers take every exception, also a request to stop, for "not this type"
+SOON = 0.01  # seconds after which a request is made again that came in there
 
 
 class Stopped(KeyboardInterrupt):
@@ -36,7 +39,12 @@ class _Requests:
         self.waiting: int | None = None
         self.watched = False
 
-    def __call__(self, number: int, frame: Any) -> None:
+    def __call__(self, number: int, frame: FrameType | None) -> None:
+        if self.open and _is_swallowed(frame):
+            again = threading.Timer(SOON, _ask_again, (threading.get_ident(), number))
+            again.daemon = True
+            again.start()
+            return
         self.waiting = number
         self.obey()
 
@@ -48,6 +56,22 @@ class _Requests:
     def taken(self) -> Stopped | None:
         number, self.waiting = self.waiting, None
         return None if number is None else Stopped(number)
+
+
+def _is_swallowed(frame: FrameType | None) -> bool:
+    """Return whether an exception that is raised at a place may not come out of the library around it."""
+    while frame is not None:
+        if str(frame.f_globals.get("__name__")).partition(".")[0] == SWALLOWS:
+            return True
+        frame = frame.f_back
+    return False
+
+
+def _ask_again(thread: int, number: int) -> None:
+    if hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(thread, number)  # which also ends a wait
+    else:
+        _thread.interrupt_main(signal.Signals(number))
 
 
 _REQUESTS = _Requests()

@@ -194,11 +194,18 @@ def _meant(name: str) -> str:
 
 
 def _parted(name: str) -> str | None:
-    """Return the units that a short name consists of with blanks between them, the longest first: ``N mm``."""
+    """Return the units that a short name consists of with blanks between them, the longest first: ``N mm``.
+
+    No two of them measure the same: ``kgg`` is a slip of kg, not kg g.
+    """
     if name in _UNITS:
         return name
     parts = ((name[:k], _parted(name[k:])) for k in range(len(name) - 1, 0, -1) if name[:k] in _UNITS)
-    return next((f"{first} {rest}" for first, rest in parts if rest), None)
+    return next((f"{first} {rest}" for first, rest in parts if rest and not _alike(first, rest)), None)
+
+
+def _alike(unit: str, others: str) -> bool:
+    return any(_UNITS[unit].dimension == _UNITS[other].dimension for other in others.split())
 
 
 @cache

@@ -63,6 +63,20 @@ def is_stream(path: Path) -> bool:
     return path.exists() and not path.is_file() and not path.is_dir()
 
 
+def place_of(path: Path) -> Path:
+    """Return where a file of this name stands, behind all links.
+
+    Raises
+    ------
+    ProblemError
+        If a link leads to itself.
+    """
+    place = Path(os.path.realpath(path))
+    if place.is_symlink():
+        raise ProblemError(f"{path} is a link that leads to itself")
+    return place
+
+
 @contextmanager
 def _written_to(path: Path) -> Iterator[BinaryIO]:
     content = io.BytesIO()  # an archive cannot be written to what has no places
@@ -75,7 +89,7 @@ def _written_to(path: Path) -> Iterator[BinaryIO]:
 
 @contextmanager
 def _beside(path: Path, replace: bool) -> Iterator[BinaryIO]:
-    place = path.resolve() if replace else path
+    place = place_of(path) if replace else path
     beside = place.with_name(f".{place.name[:40]}.{secrets.token_hex(4)}.part")
     mode = place.stat().st_mode & 0o777 if place.exists() else None
     with held() as as_outside:

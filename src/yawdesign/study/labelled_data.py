@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -25,6 +26,7 @@ from yawdesign.study.store import MASKS, write_arrays
 if TYPE_CHECKING:
     import xarray
 
+_INSIDE = re.compile("[,;](?=[=+@-])")  # only in texts: JSON has a blank behind its own commas
 LINES = 10_000  # of a table that are made at a time
 MAIN = {"design": "C_s"}  # the column that `values` shows, where it is not named after the quantity
 
@@ -90,7 +92,9 @@ class LabelledData(Result):
         """
         with whole_file(Path(path), replace=replace) as file:
             text = io.TextIOWrapper(file, encoding="utf-8", newline="")
-            text.write(f"# sweep of {self.of}\n# {self._origin()}\n")
+            # No cell of a spreadsheet begins with a formula that stands inside a title or a name.
+            origin = _INSIDE.sub(lambda sign: f"\\u{ord(sign[0]):04x}", self._origin())
+            text.write(f"# sweep of {self.of}\n# {origin}\n")
             csv.writer(text).writerows(self._lines())
             text.detach()
 

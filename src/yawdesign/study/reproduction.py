@@ -8,11 +8,12 @@ from yawdesign import __version__
 from yawdesign.problem import Problem, table1
 from yawdesign.problem.arguments import Progress
 from yawdesign.problem.result import Result
-from yawdesign.study.paper_bogie import paper_bogie
+from yawdesign.study.paper_bogie import PaperBogie, paper_bogie
 from yawdesign.study.reproduced_figures import figure_3, figures_4_5, rows_of_figure_3, rows_of_figures_4_5
 from yawdesign.study.reproduced_row import PRINTED, ReproducedRow
 from yawdesign.study.reproduced_table_2 import figure_2, table_2
 from yawdesign.study.reproduced_tables import equations_9_11, equations_13_14, table_1, table_3
+from yawdesign.study.sweep import IncompleteSweepError
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -82,7 +83,13 @@ def reproduction(problem: Problem | None = None, progress: Progress = lambda tex
     ProblemError
         If the paper's equations are not written for the problem.
     """
-    bogie = paper_bogie(table1(equations=PRINTED) if problem is None else problem)
+    try:
+        return _computed(paper_bogie(table1(equations=PRINTED) if problem is None else problem), progress)
+    except IncompleteSweepError as error:  # of a reproduction nothing is kept
+        raise error.__cause__ or error from None
+
+
+def _computed(bogie: PaperBogie, progress: Progress) -> Reproduction:
     rows = [*table_1(bogie)]
     progress("Fig. 2 and Table II", 0.05)
     run = figure_2(bogie)
