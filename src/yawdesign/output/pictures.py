@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from unicodedata import category
 
 from yawdesign.hunting.chosen_condition import other_condition_in_words
+from yawdesign.output.minus import with_minus
 from yawdesign.output.style import HEIGHT, SETTINGS, WIDTH
 from yawdesign.problem import PARAMETERS, ProblemError, format_quantity
 from yawdesign.problem.stopping import held
@@ -96,7 +97,7 @@ def set_title(ax: "Axes", title: str, conditions: str = "", *, left: float = MAR
     text = f"{title}, under {literal(conditions)}" if conditions else title
     together = re.sub(r"(?<=[\d=]) (?=[\w%])|(?<=\$) (?==)", BLANK, text)  # no line ends before a unit
     lines = wrapped(together, max(20, int((_room(ax) - left) / SIGN))).replace(BLANK, " ")
-    ax.set_title(lines, loc="left", fontsize="medium", pad=pad)
+    ax.set_title(with_minus(lines), loc="left", fontsize="medium", pad=pad)
 
 
 def wrapped(text: str, signs: int) -> str:
@@ -165,7 +166,7 @@ def legend_below(ax: "Axes", handles: "list[Any] | None" = None, *, left: float 
     place = ax.transAxes + ScaledTranslation(0, -under / 72, figure.dpi_scale_trans)  # type: ignore[union-attr]
     room = _room(ax) - left
     signs = max(20, int((room - HANDLE) / SMALL_SIGN))
-    labels = [wrapped(str(handle.get_label()), signs) for handle in handles]
+    labels = [wrapped(with_minus(str(handle.get_label())), signs) for handle in handles]
     widths = [max(len(_seen(line)) for line in label.split("\n")) for label in labels]
     ax.legend(
         handles=handles,

@@ -132,5 +132,6 @@ def _stiffnesses(result: "DamperComponent") -> Table:
     for name, z in sorted(at, key=lambda entry: entry[1].frequency):
         cells = f"{z.stiffness / 1e6:.3f}", f"{degrees(z.phase):.1f}", f"{z.loss_factor:.3f}"
         style = "bold" if "hunting" in name else ""
-        table.add_row(name, *cells, f"{z.damping / 1e3:.1f}", f"{100 * z.damping / result.C_s:.1f}", style=style)
+        left = f"{z.damping / 1e3:,.1f}".replace(",", " ")
+        table.add_row(name, *cells, left, f"{100 * z.damping / result.C_s:.1f}", style=style)
     return table
