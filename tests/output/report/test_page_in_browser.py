@@ -76,6 +76,20 @@ def test_letters_of_pictures_are_not_too_small_on_a_small_screen(page):
     assert min(8.3 / 504 * width for width in page.evaluate(widths)) > 9
 
 
+@pytest.mark.parametrize(("kind", "width"), [*(("screen", width) for width in WIDTHS), ("print", A4)])
+def test_pictures_have_no_empty_bands_beside_or_above(page, kind, width):
+    page.resize(width, 1000)
+    page.media(kind)
+    page.drawn()
+    bands = """[...document.querySelectorAll('figure > svg')].map((x) => {
+      const [drawn, place] = [x.viewBox.baseVal, x.getBoundingClientRect()];
+      return (place.width / place.height) / (drawn.width / drawn.height);
+    })"""
+    ratios = page.evaluate(bands)
+    page.media("screen")
+    assert ratios == pytest.approx([1.0] * len(ratios), rel=0.02)
+
+
 def test_texts_that_cannot_be_read_would_be_seen(page):
     page.resize(820, 1000)
     page.evaluate("document.querySelector('figcaption').style.marginTop = '-30px'")
