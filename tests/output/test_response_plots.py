@@ -169,7 +169,9 @@ def test_a_motion_that_grows_leaves_no_forces_to_order_a_damper_by():
 
 def test_pictures_and_tables_of_rigid_dampers():
     damper = yd.simulate(yd.table1().replace(C_s="200 kN s/m", K_ds="rigid"), duration=3).damper
-    assert "rigid joints" in yd.plot(damper).get_title("left")
+    ax = yd.plot(damper)
+    assert "rigid joints" in ax.get_title("left")
+    assert len(ax.figure.axes[1].get_lines()) == 3  # the phase, and where it hunts: no line of joints
     assert "rigidly mounted" in printed(damper_tables(damper))
 
 

@@ -73,7 +73,7 @@ def test_letters_of_pictures_are_not_too_small_on_a_small_screen(page):
     page.media("screen")
     page.drawn()
     widths = "[...document.querySelectorAll('figure > svg')].map((x) => x.getBoundingClientRect().width)"
-    assert min(8.3 / 504 * width for width in page.evaluate(widths)) > 9
+    assert min(8.3 / 504 * width for width in page.evaluate(widths)) > 8
 
 
 @pytest.mark.parametrize(("kind", "width"), [*(("screen", width) for width in WIDTHS), ("print", A4)])
