@@ -31,6 +31,8 @@ SIGN, SMALL_SIGN, MARGIN = 6.0, 5.1, 62.0  # width of a sign, of one of a legend
 HANDLE, MOST_COLUMNS = 42.0, 4  # width of a mark of a legend with the spaces beside it [pt]; columns side by side
 LARGE = 1000.0  # from where on digits stand in groups
 WIDEST = 200.0  # ratio up to which a logarithmic axis has numbers between the powers of ten
+# Where no line ends: before a unit, inside of a range.
+_TOGETHER = re.compile(r"(?<=[\d=]) (?=[\w%])|(?<=\$) (?==)|(?<=\d) (?=\.\.\. )|(?<= \.\.\.) (?=\d)")
 # Whatever a user's matplotlibrc says: the texts hold Matplotlib's own mathematics, which LaTeX does not understand.
 TEXTS = {"text.usetex": False, "text.parse_math": True, **SETTINGS}
 
@@ -95,7 +97,7 @@ def set_title(ax: "Axes", title: str, conditions: str = "", *, left: float = MAR
         How far above the axes it stands [pt].
     """
     text = f"{title}, under {literal(conditions)}" if conditions else title
-    together = re.sub(r"(?<=[\d=]) (?=[\w%])|(?<=\$) (?==)", BLANK, text)  # no line ends before a unit
+    together = _TOGETHER.sub(BLANK, text)
     lines = wrapped(together, max(20, int((_room(ax) - left) / SIGN))).replace(BLANK, " ")
     ax.set_title(with_minus(lines), loc="left", fontsize="medium", pad=pad)
 
