@@ -83,7 +83,9 @@ def test_where_the_vehicle_becomes_stable_is_marked(over_damping):
 
 
 def test_frequency_on_a_logarithmic_axis(over_damping, over_speed):
-    assert yd.plot(over_damping, of="frequency").get_xscale() == "log"
+    ax = yd.plot(over_damping, of="frequency")
+    assert ax.get_xscale() == "log"
+    assert ax.xaxis.get_major_formatter()(1000.0, 0) == "1 000"
     assert yd.plot(over_speed, of="frequency").get_xscale() == "linear"
 
 

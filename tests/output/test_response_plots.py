@@ -169,9 +169,19 @@ def test_tables_of_a_vehicle(vehicle):
     assert "lateral force (rear, trailing bogie)" in text
 
 
+def test_a_motion_that_grows_leaves_no_forces_to_order_a_damper_by():
+    damper = yd.simulate(yd.table1().replace(C_s="20 kN s/m", **{"lambda": 0.4}), duration=3).damper
+    shown = printed(damper_tables(damper))
+    assert damper.decay_rate < 0
+    assert shown.count("none: free motion grows") == 3
+    assert "RMS" not in shown
+
+
 def test_pictures_and_tables_of_rigid_dampers():
     damper = yd.simulate(yd.table1().replace(C_s="200 kN s/m", K_ds="rigid"), duration=3).damper
-    assert "rigid joints" in yd.plot(damper).get_title("left")
+    ax = yd.plot(damper)
+    assert "rigid joints" in ax.get_title("left")
+    assert len(ax.figure.axes[1].get_lines()) == 3  # the phase, and where it hunts: no line of joints
     assert "rigidly mounted" in printed(damper_tables(damper))
 
 

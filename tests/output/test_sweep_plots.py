@@ -1,6 +1,7 @@
 """Pictures of sweeps, designs and optima: what they show, in which units, and that nothing is opened or changed."""
 
 import dataclasses
+from pathlib import Path as Place
 
 import numpy as np
 import pytest
@@ -13,7 +14,9 @@ import yawdesign as yd
 from yawdesign.output import style
 from yawdesign.output.branches import CriticalColumn, curves, partners, stable_areas
 from yawdesign.output.contours import draw_contours
+from yawdesign.output.sweep_style import LIMIT_TEXT
 
+PROBLEMS = Place(__file__).parents[2] / "problems"
 PRINTED = yd.table1(equations="as-printed")
 
 
@@ -178,6 +181,30 @@ def test_forward_design():
     assert not ax.get_yticks().size
     nothing = yd.design(PRINTED.replace(K_m=0.0, curve=None))
     assert "stable for none" in words(drawn(nothing))
+
+
+def test_a_chart_is_hatched_throughout_where_the_curve_allows_nothing():
+    for limit, line in ((0.04, True), (0.001, False)):  # C_su of 626 and -811 kN s/m
+        ax = drawn(yd.sweep(PRINTED.replace(limit=limit), of="stable", C_s="1e5:1e6:5:log", v="200 km/h:400 km/h:5"))
+        assert "beyond the limit of the curve" in words(ax)
+        assert (LIMIT_TEXT in words(ax)) == line
+    ax = drawn(yd.sweep(PRINTED, of="stable", C_s="1e5:1e6:5:log", v="200 km/h:400 km/h:5"))
+    assert "limit of the curve" not in words(ax)
+
+
+def test_the_legend_of_a_forward_design_names_what_is_seen_in_any_row_and_nothing_else():
+    vehicle = yd.load(PROBLEMS / "vehicle.yaml").replace(**{"lambda": 0.05})
+    assert "| unstable | stable, beyond the curve's limit | stable" in words(drawn(yd.design(vehicle)))
+    assert "unstable" not in words(drawn(yd.design(PRINTED.replace(speed="100 km/h"))))
+
+
+def test_every_line_at_a_critical_speed_is_explained():
+    found = yd.critical_speed(PRINTED.replace(C_s="10 kN s/m"))
+    (first, *_) = found.critical_speeds
+    others = tuple(dataclasses.replace(first, v=first.v + k, becomes="neither") for k in (5.0, 6.0))
+    ax = drawn(dataclasses.replace(found, critical_speeds=(first, *others)))
+    assert words(ax).count("critical speed, unstable on both sides") == 1
+    assert "unstable on both sides" not in words(drawn(found))
 
 
 def bars(ax, colour):

@@ -140,7 +140,7 @@ def _answer(space: Space, x: Float, capping: Sequence[CappingMode]) -> Optimum:
     bounds = {name: _bound(space, name, values[name]) for name in space.names}
     curve = space.curve
     resisted = None if curve is None else largest_resistance(values, values["C_s"], space.loads, curve)
-    status, message = _status(checked, requirements, nexts is None or nexts.agree)
+    status, message = _status(checked, requirements, nexts is None or nexts.agree, curve is not None)
     return _optimum_of(
         space,
         forward_design(space.model, values, space.condition_set, space.curve),
@@ -173,17 +173,20 @@ def _with_lowest(space: Space, values: Mapping[str, float]) -> Space:
     return replace(space, known=(tuple(dict.fromkeys((*space.conditions, *found))), *space.known[1:]))
 
 
-def _status(checked: Checked, requirements: Sequence[RequirementVerdict], agree: bool) -> tuple[Status, str]:
+def _status(
+    checked: Checked, requirements: Sequence[RequirementVerdict], agree: bool, in_curve: bool
+) -> tuple[Status, str]:
     """Return what kind of answer it is, in a word and in a sentence."""
     if not (agree and checked.agree and all(each.checked for each in requirements)):
         return Status.UNVERIFIED_OPTIMUM, Status.UNVERIFIED_OPTIMUM.message
     if not checked.stable:
         helpless = not all(others_stable(vehicle) for vehicle in checked.vehicles)
-        return Status.UNSTABLE, Status.UNDAMPED.message if helpless else Status.UNSTABLE.message
+        return Status.UNSTABLE, Status.UNDAMPED.message if helpless else Status.UNSTABLE.told(in_curve=in_curve)
     missed = ", ".join(each.name for each in requirements if not each.met)
+    status, reason = Status.OPTIMAL, ""
     if missed:
-        return Status.REQUIREMENTS_MISSED, Status.REQUIREMENTS_MISSED.told(f"the one that misses least misses {missed}")
-    return Status.OPTIMAL, Status.OPTIMAL.message
+        status, reason = Status.REQUIREMENTS_MISSED, f"the one that misses least misses {missed}"
+    return status, status.told(reason, in_curve=in_curve)
 
 
 def _cases(problem: Problem, after: tuple[CaseVerdict, ...]) -> dict[str, Any]:

@@ -3,6 +3,8 @@
 from enum import StrEnum
 from typing import Self
 
+AND_CURVE = " and the curve's limit"
+
 
 class Status(StrEnum):
     """Kinds of answers: each is its word, as results hold it, with a message and a remedy.
@@ -112,8 +114,9 @@ class Status(StrEnum):
         """What is the case, and what to do."""
         return self.told()
 
-    def told(self, reason: str = "") -> str:
-        """Return the message with a reason in it."""
-        text = f"{self.meaning}: {reason}" if reason else self.meaning
+    def told(self, reason: str = "", *, in_curve: bool = True) -> str:
+        """Return the message with a reason in it; without a curve, nothing of its limit."""
+        case = self.meaning if in_curve else self.meaning.replace(AND_CURVE, "")
+        text = f"{case}: {reason}" if reason else case
         separator = "; " if ":" in text else ": "
         return text + separator + self.remedy if self.remedy else text

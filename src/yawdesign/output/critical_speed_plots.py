@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from yawdesign.hunting.critical_speed import CriticalSpeeds
+NEITHER = "critical speed, unstable on both sides"  # where one more pair of roots crosses the axis
 
 
 def draw_critical_speeds(result: "CriticalSpeeds", ax: "Axes | None" = None) -> "Axes":
@@ -70,8 +71,10 @@ def _marks(result: "CriticalSpeeds", ax: "Axes") -> list[MarkLabel]:
     labels = []
     for each in result.critical_speeds:
         x = to_unit(each.v, "km/h")
-        ax.axvline(x, color=BECOMES[each.becomes], linestyle=BECOMES_DASHES[each.becomes], linewidth=1.5)
-        if each.becomes != "neither":
+        line = ax.axvline(x, color=BECOMES[each.becomes], linestyle=BECOMES_DASHES[each.becomes], linewidth=1.5)
+        if each.becomes == "neither":
+            line.set_label("_" if NEITHER in ax.get_legend_handles_labels()[1] else NEITHER)
+        else:
             labels.append(MarkLabel(x, f"{_speed(each.v)}, becomes {each.becomes}", BECOMES[each.becomes]))
     asked = {round(each.wanted, 9): "required" for each in result.requirements if each.name.endswith("critical_speed")}
     asked.setdefault(round(result.speed_wanted, 9), "1.1 v for tests")

@@ -38,9 +38,9 @@ def damper_component(result: "DamperComponent", ax: "Axes | None" = None) -> "Ax
         upper.loglog(f, 2 * pi * f * result.C_s / 1e6, label=r"damping alone, $2\pi f\,C_\mathrm{s}$", **damping)
         upper.axhline(result.K_ds / 1e6, label=r"stiffness of the joints alone, $K_\mathrm{ds}$", **joints)
         upper.set_ylim(0.7 * abs(Z[0]) / 1e6, 3 * result.K_ds / 1e6)
+        lower.axhline(90.0, **damping)
+        lower.axhline(0.0, **joints)
     lower.plot(f, np.degrees(np.angle(Z)), color=CHOSEN, label="_")
-    for height, look in ((90.0, damping), (0.0, joints)):
-        lower.axhline(height, **look)
     lower.set(ylim=(-4, 94), yticks=[0, 30, 60, 90], ylabel="phase [°]", xlabel="frequency [Hz]", xlim=(LOW, HIGH))
     upper.set_ylabel("|Z| of the pair [MN/m]")
     log_axis(upper)

@@ -151,13 +151,14 @@ def _bar(ax: "Axes", row: int, intervals: Intervals, limit: float | None) -> Non
         a, b = max(start * DAMPING, low), min(stop * DAMPING, high)
         stable.append((a, min(b, end)))
         beyond.append((max(a, end), b))
+    whole = any(start * DAMPING <= low and stop * DAMPING >= high for start, stop in intervals)
     parts = {
-        "unstable": (UNSTABLE, [(low, high)]),
+        "unstable": (UNSTABLE, [] if whole else [(low, high)]),
         "stable": (STABLE, stable),
         "stable, beyond the curve's limit": (EXCLUDED, beyond),
     }
     for text, (colour, found) in parts.items():
-        label = text if row == 0 else "_"
+        label = "_" if text in ax.get_legend_handles_labels()[1] else text
         for a, b in found:
             if a < b:
                 ax.barh(row, b - a, BAR, left=a, label=label, **area(colour))

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from yawdesign.output.minus import with_minus
 from yawdesign.output.style import halo
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ def draw_labels(ax: "Axes", labels: Sequence[MarkLabel], first: float) -> float:
     for label in sorted(labels, key=lambda label: label.x):
         look: dict[str, Any] = {"ha": "left", "va": "bottom", "fontsize": "small", "color": label.colour}
         note = ax.annotate(
-            label.text,
+            with_minus(label.text),
             (label.x, 1.0),
             (0, 0),
             xycoords=place,

@@ -11,7 +11,9 @@ from rich.table import Table
 from rich.text import Text
 
 from yawdesign.output import style
-from yawdesign.output.pictures import own_texts
+from yawdesign.output.minus import with_minus
+from yawdesign.output.pictures import BLANK, own_texts
+from yawdesign.output.table_widths import unbroken
 from yawdesign.problem.characters import in_order
 
 if TYPE_CHECKING:
@@ -60,9 +62,20 @@ def text(value: str) -> str:
     return f"<bdi>{plain_text(value)}</bdi>"
 
 
+def sentence(value: str) -> str:
+    """Return a text of several lines as `text` does; none ends inside of a number, or between it and its unit.
+
+    Examples
+    --------
+    >>> sentence("at 1 200 kN") == f"<bdi>at 1{BLANK}200{BLANK}kN</bdi>"
+    True
+    """
+    return text(unbroken(value, BLANK))
+
+
 def plain_text(value: str) -> str:
-    """Return a text for a place where there are no elements, such as a title or an attribute."""
-    return escape(in_order(value))
+    """Return a text for a place where there are no elements, such as a title or an attribute, with minus signs."""
+    return escape(with_minus(in_order(value)))
 
 
 def tables(shown: RenderableType) -> str:
@@ -79,7 +92,7 @@ def _parts(shown: Any) -> Iterator[str]:
     else:
         line = shown.plain if isinstance(shown, Text) else str(shown)
         if line.strip():
-            yield f"<p>{text(line)}</p>"
+            yield f"<p>{sentence(line)}</p>"
 
 
 def _table(table: Table) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 from yawdesign.hunting.arrays import Float
 from yawdesign.output.label_places import Named, names_beside
 from yawdesign.output.mode_paths import Paths
-from yawdesign.output.pictures import NothingToDrawError, legend_below, new_axes, put_title
+from yawdesign.output.pictures import NothingToDrawError, legend_below, log_axis, new_axes, put_title
 from yawdesign.output.root_locus import draw_root_locus
 from yawdesign.output.style import BECOMES, BECOMES_DASHES, LIMIT, UNSTABLE, span
 from yawdesign.problem import format_quantity
@@ -68,7 +68,7 @@ def _over_parameter(paths: Paths, ax: "Axes", of: str, target: float | None) -> 
     ax.set(xlabel=paths.label, xlim=(min(paths.values), max(paths.values)))
     ax.set(ylabel="frequency [Hz]" if is_frequency else "damping ratio [%]")
     if paths.geometric:
-        ax.set_xscale("log")
+        log_axis(ax)
     _limits(ax, curves[:, waving], is_frequency)
     ax.grid()
     ax.axhline(0, color=LIMIT, linewidth=1)

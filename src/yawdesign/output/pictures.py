@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from unicodedata import category
 
 from yawdesign.hunting.chosen_condition import other_condition_in_words
+from yawdesign.output.minus import with_minus
 from yawdesign.output.style import HEIGHT, SETTINGS, WIDTH
 from yawdesign.problem import PARAMETERS, ProblemError, format_quantity
 from yawdesign.problem.stopping import held
@@ -30,6 +31,8 @@ SIGN, SMALL_SIGN, MARGIN = 6.0, 5.1, 62.0  # width of a sign, of one of a legend
 HANDLE, MOST_COLUMNS = 42.0, 4  # width of a mark of a legend with the spaces beside it [pt]; columns side by side
 LARGE = 1000.0  # from where on digits stand in groups
 WIDEST = 200.0  # ratio up to which a logarithmic axis has numbers between the powers of ten
+# Where no line ends: before a unit, inside of a range.
+_TOGETHER = re.compile(r"(?<=[\d=]) (?=[\w%])|(?<=\$) (?==)|(?<=\d) (?=\.\.\. )|(?<= \.\.\.) (?=\d)")
 # Whatever a user's matplotlibrc says: the texts hold Matplotlib's own mathematics, which LaTeX does not understand.
 TEXTS = {"text.usetex": False, "text.parse_math": True, **SETTINGS}
 
@@ -98,9 +101,9 @@ def set_title(ax: "Axes", title: str, conditions: str = "", *, left: float = MAR
         How far above the axes it stands [pt].
     """
     text = f"{title}, under {literal(conditions)}" if conditions else title
-    together = re.sub(r"(?<=[\d=]) (?=[\w%])|(?<=\$) (?==)", BLANK, text)  # no line ends before a unit
+    together = _TOGETHER.sub(BLANK, text)
     lines = wrapped(together, max(20, int((_room(ax) - left) / SIGN))).replace(BLANK, " ")
-    ax.set_title(lines, loc="left", fontsize="medium", pad=pad)
+    ax.set_title(with_minus(lines), loc="left", fontsize="medium", pad=pad)
 
 
 def wrapped(text: str, signs: int) -> str:
@@ -169,7 +172,7 @@ def legend_below(ax: "Axes", handles: "list[Any] | None" = None, *, left: float 
     place = ax.transAxes + ScaledTranslation(0, -under / 72, figure.dpi_scale_trans)  # type: ignore[union-attr]
     room = _room(ax) - left
     signs = max(20, int((room - HANDLE) / SMALL_SIGN))
-    labels = [wrapped(str(handle.get_label()), signs) for handle in handles]
+    labels = [wrapped(with_minus(str(handle.get_label())), signs) for handle in handles]
     widths = [max(len(_seen(line)) for line in label.split("\n")) for label in labels]
     count = _columns(widths, room)
     ax.legend(

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from yawdesign.output.minus import with_minus
 from yawdesign.output.pictures import quantity
 from yawdesign.output.style import CHOSEN, LIMIT, SERIES
 from yawdesign.problem import format_quantity
@@ -213,8 +214,8 @@ def labels(p: Mapping[str, float]) -> Iterator[tuple[float, float, str]]:
 def caption(mode: "NamedMode") -> str:
     """Return what a mode is, in one line."""
     if mode.frequency == 0:
-        return f"{mode.name}: no oscillation, decay rate {mode.decay_rate:.3g} 1/s"
-    return f"{mode.name}: {mode.frequency:.3g} Hz, damping ratio {100 * mode.damping_ratio:.3g} %"
+        return with_minus(f"{mode.name}: no oscillation, decay rate {mode.decay_rate:.3g} 1/s")
+    return with_minus(f"{mode.name}: {mode.frequency:.3g} Hz, damping ratio {100 * mode.damping_ratio:.3g} %")
 
 
 def subtitle(result: "Modes") -> str:

@@ -106,9 +106,9 @@ def damper_tables(result: "DamperComponent") -> RenderableType:
             else f"{damping(result.C_each)} between two joints of {format_quantity(result.K_ds, 'MN/m')}",
         ),
         ("force of each at 0.1 m/s", format_quantity(result.force_at_rated_velocity, "kN", 4)),
-        (f"force of each, run at {speed(result.speed)}", _two(result.force_rms, result.force_peak, 1e-3, "kN")),
-        ("stroke of each piston", _two(result.stroke_rms, result.stroke_peak, 1e3, "mm")),
-        ("velocity of each piston", _two(result.velocity_rms, result.velocity_peak, 1e3, "mm/s")),
+        (f"force of each, run at {speed(result.speed)}", _in_run(result, "force", 1e-3, "kN")),
+        ("stroke of each piston", _in_run(result, "stroke", 1e3, "mm")),
+        ("velocity of each piston", _in_run(result, "velocity", 1e3, "mm/s")),
         ("above this the joints are displaced more", "never" if rigid else f"{result.corner_frequency:.3f} Hz"),
         ("decay rate with these joints", f"{result.decay_rate:.4f} 1/s"),
         ("decay rate with rigid joints", f"{result.decay_rate_rigid:.4f} 1/s (the joints: {lost:+.4f})"),
@@ -118,8 +118,11 @@ def damper_tables(result: "DamperComponent") -> RenderableType:
     return Group(facts(f"The yaw damper to order{where}", rows), _stiffnesses(result))
 
 
-def _two(rms: float, peak: float, factor: float, unit: str) -> str:
-    return f"{factor * rms:.4g} {unit} RMS, {factor * peak:.4g} {unit} peak"
+def _in_run(result: "DamperComponent", name: str, factor: float, unit: str) -> str:
+    if result.decay_rate <= 0:
+        return "none: free motion grows"  # what is reached belongs to the length of the run alone
+    rms, peak = (factor * float(getattr(result, f"{name}_{kind}")) for kind in ("rms", "peak"))
+    return f"{rms:.4g} {unit} RMS, {peak:.4g} {unit} peak"
 
 
 def _stiffnesses(result: "DamperComponent") -> Table:
@@ -132,5 +135,6 @@ def _stiffnesses(result: "DamperComponent") -> Table:
     for name, z in sorted(at, key=lambda entry: entry[1].frequency):
         cells = f"{z.stiffness / 1e6:.3f}", f"{degrees(z.phase):.1f}", f"{z.loss_factor:.3f}"
         style = "bold" if "hunting" in name else ""
-        table.add_row(name, *cells, f"{z.damping / 1e3:.1f}", f"{100 * z.damping / result.C_s:.1f}", style=style)
+        left = f"{z.damping / 1e3:,.1f}".replace(",", " ")
+        table.add_row(name, *cells, left, f"{100 * z.damping / result.C_s:.1f}", style=style)
     return table

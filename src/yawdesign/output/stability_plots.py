@@ -70,5 +70,5 @@ def _margins(ax: "Axes", result: "Stability") -> None:
         damping_ray(ax, wanted, f"required damping ratio {100 * wanted:g} %")
     kind = "stable" if result.decay_rate > 0 else "unstable"
     look: dict[str, Any] = {"color": BECOMES[kind], "linestyle": BECOMES_DASHES[kind], "linewidth": 1.2}
-    ax.axvline(-result.decay_rate, label=f"least decay rate {result.decay_rate:.3g} 1/s".replace("-", "−"), **look)
+    ax.axvline(-result.decay_rate, label=f"least decay rate {result.decay_rate:.3g} 1/s", **look)
     ax.axvline(0, color=LIMIT, linewidth=1, label="_")

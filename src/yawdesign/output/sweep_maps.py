@@ -187,8 +187,12 @@ def _seen(pieces: list[Any], ax: "Axes") -> bool:
     return any(left < x < right and bottom < y < top for piece in pieces for x, y in piece)
 
 
+def _limit_line(ax: "Axes", points: tuple[Float, Float]) -> list[Any]:
+    return list(ax.plot(*points, label=LIMIT_TEXT, zorder=LINES, **LIMIT_LINE))
+
+
 def _limit(drawn: _Map, ax: "Axes") -> list[Any]:
-    """Draw what the curve allows, and hatch what is beyond it, where C_s is an axis."""
+    """Draw what the curve allows, and hatch what is beyond it, where C_s is an axis: all, if nothing is allowed."""
     from matplotlib.patches import Patch, Polygon
 
     known = drawn.sweep.chart
@@ -198,9 +202,9 @@ def _limit(drawn: _Map, ax: "Axes") -> list[Any]:
     limit = known.C_su * shown_factor("C_s")
     swapped = names[0] == "C_s"
     along, (low, high) = (drawn.y, drawn.x[[0, -1]]) if swapped else (drawn.x, drawn.y[[0, -1]])
-    if np.all(limit >= high) or np.all(limit <= low):
+    if np.all(limit >= high):
         return []
-    line = ax.plot(*((limit, along) if swapped else (along, limit)), label=LIMIT_TEXT, zorder=LINES, **LIMIT_LINE)
+    line = [] if np.all(limit <= low) else _limit_line(ax, (limit, along) if swapped else (along, limit))
     edge = [*zip(np.clip(limit, low, high), along, strict=True), (high, along[-1]), (high, along[0])]
     look = hatched(EXCLUDED)
     ax.add_patch(Polygon(edge if swapped else [(x, y) for y, x in edge], zorder=LINES - 0.5, **look))

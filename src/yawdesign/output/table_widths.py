@@ -40,6 +40,11 @@ def fitted(shown: RenderableType, width: int) -> Group:
     return Group(*_parts(shown, width))
 
 
+def unbroken(text: str, blank: str) -> str:
+    """Return a text with a sign in place of each blank inside of a number, or between a number and its unit."""
+    return _INSIDE.sub(blank, text)
+
+
 def as_read(text: str) -> str:
     """Return a text with plain blanks, once its lines are made."""
     return text.replace(KEPT, " ")
@@ -60,7 +65,7 @@ def _parts(shown: Any, width: int) -> Iterator[RenderableType]:
 def _kept(shown: Any, style: str = "") -> Text:
     """Return a text whose numbers stay whole, and that leaves the order of what stands around it."""
     text = shown.copy() if isinstance(shown, Text) else Text(str(shown), style)
-    text.plain = _INSIDE.sub(KEPT, in_order(as_read(text.plain)))
+    text.plain = unbroken(in_order(as_read(text.plain)), KEPT)
     text.overflow = "fold"
     return text
 

@@ -163,7 +163,7 @@ def design_tables(result: "ForwardDesign") -> RenderableType:
 def _beside(result: "ForwardDesign", alone: "SingleBogie") -> RenderableType:
     """Return the answer beside that of a single bogie, and where they part."""
     table = titled("With the car body, and one bogie under a car body that stands still", "", "vehicle", "single bogie")
-    intervals = ("\n".join(_interval(*i) for i in x.stable_intervals) or "none" for x in (result, alone))
+    intervals = ("\n".join(interval(*i) for i in x.stable_intervals) or "none" for x in (result, alone))
     table.add_row("stable for C_s in", *intervals)
     table.add_row("C_sl", damping(result.C_sl), damping(alone.C_sl))
     table.add_row("C_s, golden section", damping(result.C_s), damping(alone.C_s))
@@ -181,24 +181,26 @@ def _conicities(parting: "Parting", low: float, high: float) -> str:
     return ", ".join(f"{a:.3g} ... {b:.3g}" for a, b in parting.conicities) or "none"
 
 
-def _interval(low: float, high: float) -> str:
+def interval(low: float, high: float) -> str:
+    """Return a stable interval of the yaw damping."""
     return f"{damping(low)} ... " + ("no limit" if high == float("inf") else damping(high))
 
 
-def _allowed(C_su: float | None) -> str:
+def allowed(C_su: float | None) -> str:
+    """Return which yaw damping the curve allows."""
     return damping(C_su) if C_su is None or C_su >= 0 else "none: K_2x and C_t alone exceed the limit"
 
 
 def _design_facts(result: "ForwardDesign") -> Table:
     many = len({tuple(x.condition.items()) for x in result.critical}) > 1
     where = "stable under every condition for C_s in" if many else "stable for C_s in"
-    stable = [(where, _interval(*i)) for i in result.stable_intervals]
+    stable = [(where, interval(*i)) for i in result.stable_intervals]
     load = {"axle": " (Q = W, the axle load)", "wheel": " (Q = W/2, the wheel load)", None: ""}[result.load]
     rows = [
         *(stable or [(where, "none")]),
         ("C_sl, lower end of the stable interval", damping(result.C_sl)),
         *([("the condition that sets it", condition_text(result.worst_condition))] if result.worst_condition else []),
-        (f"C_su, limit of the curve{load}", _allowed(result.C_su)),
+        (f"C_su, limit of the curve{load}", allowed(result.C_su)),
         ("C_s, golden section", damping(result.C_s)),
         ("is that C_s stable", "-" if result.C_s is None else "yes" if result.stable else "no"),
     ]

@@ -115,9 +115,10 @@ def _distribution(result: "Uncertainty", ax: "Axes", of: str) -> list[MarkLabel]
     ax.bar(ends[:-1], shares, np.diff(ends), align="edge", color=REST, edgecolor=BEFORE, linewidth=0.6, zorder=2)
     low, high = float(ends[0]), float(ends[-1])
     if of == "margin":
-        span(ax, min(low, 0.0), 0.0, UNSTABLE, label="unstable")
-        span(ax, 0.0, max(high, 0.0), STABLE, label="stable")
         low, high = min(low, 0.0), max(high, 0.0)
+        for start, stop, colour, text in ((low, 0.0, UNSTABLE, "unstable"), (0.0, high, STABLE, "stable")):
+            if start < stop:
+                span(ax, start, stop, colour, label=text)
     labels = []
     decimals = max(0, 2 - floor(log10(max(abs(low), abs(high)))))
     for level, dashes in MARKED.items():

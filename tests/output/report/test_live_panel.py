@@ -155,6 +155,20 @@ def expect_shown(panel):
 
 
 @pytest.mark.slow
+def test_a_root_that_grows_is_in_the_picture_however_fast(bogie):
+    for C_s, v in (("60", "330"), ("1", "600")):  # least decay rates of -6.9 and -16 1/s: the axis ends at 5 1/s else
+        for key, text in (("C_s", C_s), ("v", v), ("lambda", "0.4")):
+            bogie.page.write(f"[data-key={key}] [type=number]", text)
+        assert float(bogie.shown("abscissa").split()[0]) > 5
+        growing = int(re.search(r"picture, (\d+) of all", bogie.shown("plane-description"))[1])
+        shown = "document.querySelectorAll('#live-plane-drawn .growing').length"
+        assert bogie.page.evaluate(shown) == growing > 0
+        numbers = "[...document.querySelectorAll('#live-plane-drawn text')].map((x) => x.textContent)"
+        assert len(bogie.page.evaluate(numbers)) <= 17
+    bogie.page.evaluate("document.getElementById('live-reset').click()")
+
+
+@pytest.mark.slow
 def test_intervals_are_shown_in_words_and_on_the_axis(bogie):
     bogie.page.evaluate("document.getElementById('live-reset').click()")
     assert bogie.shown("intervals") == "above 90.7029 kN·s/m"

@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 import yawdesign as yd
 from yawdesign.cli import app
 from yawdesign.output import style
+from yawdesign.output.pictures import BLANK
 from yawdesign.output.report import browser_print, condition_sections, design_sections, motion_sections, verdict
 from yawdesign.output.report.page import page
 from yawdesign.output.report.report import origin
@@ -141,7 +142,7 @@ def test_the_verdict_is_told_in_words_and_by_a_sign(review, read):
 
 def test_what_is_not_survived_or_reached_stands_under_the_verdict(review):
     def told(shown):
-        return verdict.verdict(shown).body
+        return verdict.verdict(shown).body.replace(BLANK, " ")
 
     lost, fault = replace(review.after.cases[0], stable=False, checked=True), "&lt;i&gt;lost&lt;/i&gt; $5"
     speeds = replace(review.critical_speed, stable_up_to=60.0, speed_wanted=90.0)

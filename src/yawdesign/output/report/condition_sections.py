@@ -7,6 +7,7 @@ from yawdesign.output.condition_texts import condition_text
 from yawdesign.output.plots import plot
 from yawdesign.output.report.drawings import bars, marked, of_design
 from yawdesign.output.report.fragments import Section, figure, paragraph, tables
+from yawdesign.output.sweep_style import LIMIT_TEXT
 from yawdesign.output.tables import margin, requirement_tables, titled
 from yawdesign.study.review_axes import mount
 
@@ -77,9 +78,10 @@ def chart(review: "DesignReview") -> Section | None:
     if review.chart is None or review.design is None:
         return None
     axes = of_design(plot(review.chart))
+    limited = LIMIT_TEXT in axes.get_legend_handles_labels()[1]
     told = (
-        f"What is stable over running speed and yaw damping, {_under(review.chart)}. The ring is this design; the "
-        "dashed line is what the curve allows."
+        f"What is stable over running speed and yaw damping, {_under(review.chart)}. The ring is this design"
+        f"{'; the dashed line is what the curve allows' if limited else ''}."
     )
     drawn = figure(axes, "chart-picture", "Stability over speed and yaw damping", told)
     return Section("chart", "Stability over speed and yaw damping", drawn)
@@ -108,11 +110,12 @@ def mounts(review: "DesignReview") -> Section | None:
     """Return the margin over frequency and damping of the motor suspension."""
     if review.mounts is None or review.design is None:
         return None
-    axes = marked(of_design(plot(review.mounts)), "before", [mount(review.problem)])
-    f_m, xi_m = mount(review.design)
+    written, (f_m, xi_m) = mount(review.problem), mount(review.design)
+    changed = written != (f_m, xi_m)
+    axes = marked(of_design(plot(review.mounts)), "before", [written] if changed else [])
     told = (
         f"Margin over the motor suspension, with the yaw damper of this design, {_under(review.mounts)}. The ring is "
-        f"this design ({f_m:.3g} Hz, {100 * xi_m:.3g} %), the square the motor suspension as written."
+        f"this design ({f_m:.3g} Hz, {100 * xi_m:.3g} %){', the square the motor suspension as written' * changed}."
     )
     return Section(
         "mounts", "Motor suspension", figure(axes, "mounts-picture", "Margin over the motor suspension", told)

@@ -2,7 +2,6 @@
 
 import textwrap
 from collections.abc import Iterator
-from math import isinf
 from typing import TYPE_CHECKING, Any
 
 from yawdesign.output import style
@@ -11,7 +10,7 @@ from yawdesign.output.plots import plot
 from yawdesign.output.report.drawings import bars, marked
 from yawdesign.output.report.fragments import Section, figure, paragraph, tables
 from yawdesign.output.report.verdict import MARGINS
-from yawdesign.output.tables import damping, facts, margin, titled
+from yawdesign.output.tables import allowed, damping, facts, interval, margin, titled
 from yawdesign.output.trade_off_tables import trade_off_tables
 from yawdesign.output.uncertainty_tables import uncertainty_tables
 from yawdesign.problem import PARAMETERS, format_quantity, to_unit
@@ -29,11 +28,13 @@ def intervals(review: "DesignReview") -> Section:
     axes = plot(forward, beside=[chosen] if chosen else [])
     if chosen is not None:
         text = f"{format_quantity(chosen, 'kN·s/m', 4)}, this design"
-        marked(axes, "design", [(to_unit(chosen, "kN·s/m"), 0.5)], label=text, transform=axes.get_xaxis_transform())
+        bottom, top = axes.get_ylim()
+        first = (to_unit(chosen, "kN·s/m"), bottom / (bottom - top))  # row, the one under every condition
+        marked(axes, "design", [first], label=text, transform=axes.get_xaxis_transform())
     rows = [("stable for C_s in", _intervals(review)), ("C_sl, least stable", damping(forward.C_sl))]
-    rows += [("C_su, curve's limit", damping(forward.C_su)), ("C_s, golden section between them", damping(forward.C_s))]
+    rows += [("C_su, curve's limit", allowed(forward.C_su)), ("C_s, golden section between them", damping(forward.C_s))]
     rows += [("C_s of this design", damping(chosen))] if chosen is not None else []
-    ends = f"C_sl = {damping(forward.C_sl)}, C_su = {damping(forward.C_su)}"
+    ends = f"C_sl = {damping(forward.C_sl)}, C_su = {allowed(forward.C_su)}"
     told = f"Stable for C_s in {_intervals(review)}; {ends}, this design {damping(chosen)}."
     return Section(
         "intervals",
@@ -51,9 +52,7 @@ def intervals(review: "DesignReview") -> Section:
 
 def _intervals(review: "DesignReview") -> str:
     found = review.forward.stable_intervals
-    return (
-        " and ".join(f"{damping(low)} ... {'any' if isinf(high) else damping(high)}" for low, high in found) or "none"
-    )
+    return " and ".join(interval(*ends) for ends in found) or "none"
 
 
 def before_and_after(review: "DesignReview") -> Section | None:
@@ -61,32 +60,27 @@ def before_and_after(review: "DesignReview") -> Section | None:
     optimum = review.optimum
     if optimum.margin is None:
         return None
-    table = titled("Before and after", "", "as written", "golden section", "this design")
     golden = review.front.golden if review.front else None
+    written = review.front.written if review.front else None
+    table = titled("Before and after", "", "as written", *(["golden section"] if golden else []), "this design")
+
+    def add(name: str, *cells: str) -> None:
+        was, between, now = cells
+        table.add_row(name, was, *([between] if golden else []), now)
+
     for name, bound in optimum.bounds.items():
         row = PARAMETERS[name]
         values = (optimum.before.get(name), golden.get(name) if golden else None, bound.value)
-        table.add_row(
-            f"{name}, {row.meaning}", *("not given" if x is None else format_quantity(x, row.unit) for x in values)
-        )
-    between = margin(golden["margin"], optimum.objective) if golden else "not given"
-    table.add_row(
-        MARGINS[optimum.objective],
-        margin(optimum.margin_before, optimum.objective),
-        between,
-        margin(optimum.margin, optimum.objective),
-    )
-    written = review.front.written if review.front else None
+        add(f"{name}, {row.meaning}", *("not given" if x is None else format_quantity(x, row.unit) for x in values))
+    margins = optimum.margin_before, golden["margin"] if golden else None, optimum.margin
+    add(MARGINS[optimum.objective], *(margin(x, optimum.objective) for x in margins))
     if optimum.rotational_resistance is not None:
         resistances = (x["rotational_resistance"] if x else None for x in (written, golden))
-        cells = ["not given" if x is None else f"{x:.5f}" for x in resistances]
-        table.add_row("rotational resistance T/(4Qa)", *cells, f"{optimum.rotational_resistance:.5f}")
-    stable = [
-        _yes(review.before.stable if review.before else None),
-        _yes(golden["stable"] if golden else None),
-        _yes(optimum.stable),
-    ]
-    table.add_row("stable under every condition", *stable)
+        unknown = "not given" if optimum.margin_before is None else "not computed"
+        cells = (unknown if x is None else f"{x:.5f}" for x in resistances)
+        add("rotational resistance T/(4Qa)", *cells, f"{optimum.rotational_resistance:.5f}")
+    verdicts = review.before.stable if review.before else None, golden["stable"] if golden else None, optimum.stable
+    add("stable under every condition", *map(_yes, verdicts))
     worst = f"Limits that are reached: {', '.join(optimum.active) or 'none'}."
     return Section("change-of-design", "Before and after", _places(review.optimum) + tables(table) + paragraph(worst))
 

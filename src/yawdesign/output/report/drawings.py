@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from yawdesign.hunting.chosen_condition import condition_in_words
 from yawdesign.output import style
+from yawdesign.output.minus import with_minus
 from yawdesign.output.pictures import legend_below, literal, new_axes, own_texts
 from yawdesign.output.sweep_style import axis_label, axis_values
 from yawdesign.problem import to_unit
@@ -42,7 +43,7 @@ def bars(names: Sequence[str], values: Sequence[float], label: str, texts: Seque
             ax.barh(row, value, height=0.62, **look)
             side, align = (4, "left") if value >= 0 else (-4, "right")
             ax.annotate(
-                text.replace("-", "−"),
+                with_minus(text),
                 (value, row),
                 (side, 0),
                 textcoords="offset points",

@@ -55,7 +55,7 @@ class Section:
 
 def paragraph(text: str, kind: str = "") -> str:
     """Return a text as a paragraph, shown as it is."""
-    return f"<p{of_class(kind)}>{markup.text(text)}</p>"
+    return f"<p{of_class(kind)}>{markup.sentence(text)}</p>"
 
 
 def of_class(kind: str) -> str:
@@ -70,7 +70,7 @@ def subheading(title: str) -> str:
 
 def items(texts: Iterable[str]) -> str:
     """Return texts as a list."""
-    return f"<ul>{''.join(f'<li>{markup.text(text)}</li>' for text in texts)}</ul>"
+    return f"<ul>{''.join(f'<li>{markup.sentence(text)}</li>' for text in texts)}</ul>"
 
 
 def folded(summary: str, body: str) -> str:
@@ -102,4 +102,4 @@ def figure(axes: "Axes", name: str, title: str, description: str, caption: str =
     svg = markup.picture(axes, name, title, description)
     width, height = axes.get_figure(root=True).get_size_inches()  # type: ignore[union-attr]
     kind = of_class("tall" if height > TALL * width else "")
-    return f"<figure{kind}>{svg}<figcaption>{markup.text(caption or description)}</figcaption></figure>"
+    return f"<figure{kind}>{svg}<figcaption>{markup.sentence(caption or description)}</figcaption></figure>"

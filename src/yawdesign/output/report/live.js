@@ -116,23 +116,33 @@ function drawn(parent, name, attributes, text) {
   return element;
 }
 
-// The plane of the roots: near the imaginary axis, as high as the roots there go.
+// The plane of the roots: near the imaginary axis, as high and as far right as the roots there go.
 const plane = document.getElementById("live-plane-drawn");
 const HERTZ = 2 * Math.PI;
-const [LEFT, RIGHT] = [-15, 5]; // 1/s
+const [LEFT, RIGHT] = [-15, 5]; // 1/s, with no root farther right
+const APART = [5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000]; // numbers beside the axis [1/s]
 const HEIGHTS = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64]; // Hz
 const [WIDE, TALL, MARGIN] = [600, 300, { left: 46, right: 12, top: 10, bottom: 40 }];
-const across = (x) => MARGIN.left + ((WIDE - MARGIN.left - MARGIN.right) * (x - LEFT)) / (RIGHT - LEFT);
 const firstRoots = vehicle.at(start).roots;
+
+function axesFor(roots) {
+  const near = roots.filter(([x, y]) => y >= 0 && x >= LEFT);
+  const farthest = Math.min(1.1 * Math.max(...near.map(([x]) => x), 0), 6 * APART.at(-1));
+  const step = APART.find((each) => Math.max(farthest, RIGHT) <= 6 * each);
+  const end = Math.max(RIGHT, step * Math.ceil(farthest / step));
+  const highest = Math.max(...near.map(([, y]) => y), 0) / HERTZ;
+  const top = HEIGHTS.find((hertz) => hertz >= 1.1 * highest) ?? HEIGHTS.at(-1);
+  const across = (x) => MARGIN.left + ((WIDE - MARGIN.left - MARGIN.right) * (x - LEFT)) / (end - LEFT);
+  const upward = (y) => TALL - MARGIN.bottom - ((TALL - MARGIN.top - MARGIN.bottom) * y) / (top * HERTZ);
+  return { step, end, top, across, upward };
+}
 
 function drawRoots(roots) {
   const upper = roots.filter(([, y]) => y >= 0);
-  const right = upper.filter(([x]) => x >= LEFT);
-  const highest = Math.max(...right.map(([, y]) => y), 0) / HERTZ;
-  const top = HEIGHTS.find((hertz) => hertz >= 1.1 * highest) ?? HEIGHTS.at(-1);
-  const upward = (y) => TALL - MARGIN.bottom - ((TALL - MARGIN.top - MARGIN.bottom) * y) / (top * HERTZ);
-  const isIn = ([x, y]) => y >= 0 && x >= LEFT && x <= RIGHT && y <= top * HERTZ;
-  drawFrame(top, upward);
+  const axes = axesFor(roots);
+  const { across, upward } = axes;
+  const isIn = ([x, y]) => y >= 0 && x >= LEFT && x <= axes.end && y <= axes.top * HERTZ;
+  drawFrame(axes);
   for (const [x, y] of firstRoots.filter(isIn)) {
     drawn(plane, "circle", { class: "first", cx: across(x), cy: upward(y), r: 5 });
   }
@@ -155,24 +165,24 @@ function drawRoots(roots) {
   );
 }
 
-function drawFrame(top, upward) {
+function drawFrame({ step, end, top, across, upward }) {
   plane.replaceChildren();
   const [zero, base] = [across(0), upward(0)];
-  const half = { x: zero, y: MARGIN.top, width: across(RIGHT) - zero, height: base - MARGIN.top };
+  const half = { x: zero, y: MARGIN.top, width: across(end) - zero, height: base - MARGIN.top };
   drawn(plane, "rect", { class: "half", ...half });
   drawn(plane, "rect", { class: "hatched", ...half });
-  for (let x = LEFT; x <= RIGHT; x += 5) {
+  for (let x = step * Math.ceil(LEFT / step); x <= end; x += step) {
     drawn(plane, "line", { class: "grid", x1: across(x), x2: across(x), y1: MARGIN.top, y2: base });
     drawn(plane, "text", { x: across(x), y: base + 19, "text-anchor": "middle" }, digits(x));
   }
   for (let k = 0; k <= 4; k++) {
     const height = upward((top * HERTZ * k) / 4);
-    drawn(plane, "line", { class: "grid", x1: across(LEFT), x2: across(RIGHT), y1: height, y2: height });
+    drawn(plane, "line", { class: "grid", x1: across(LEFT), x2: across(end), y1: height, y2: height });
     drawn(plane, "text", { x: across(LEFT) - 6, y: height + 4, "text-anchor": "end" }, digits((top * k) / 4));
   }
   drawn(plane, "line", { class: "axis", x1: zero, x2: zero, y1: MARGIN.top, y2: base });
-  drawn(plane, "line", { class: "axis", x1: across(LEFT), x2: across(RIGHT), y1: base, y2: base });
-  const [center, middle] = [across((LEFT + RIGHT) / 2), (MARGIN.top + base) / 2];
+  drawn(plane, "line", { class: "axis", x1: across(LEFT), x2: across(end), y1: base, y2: base });
+  const [center, middle] = [across((LEFT + end) / 2), (MARGIN.top + base) / 2];
   drawn(plane, "text", { x: center, y: TALL - 6, "text-anchor": "middle" }, "real part [1/s]");
   const turned = { x: 12, y: middle, "text-anchor": "middle", transform: `rotate(-90 12 ${middle})` };
   drawn(plane, "text", turned, "frequency [Hz]");

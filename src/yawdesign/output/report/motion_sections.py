@@ -5,7 +5,7 @@ from math import degrees, isinf
 from typing import TYPE_CHECKING
 
 from yawdesign.output.critical_speed_tables import critical_speed_tables
-from yawdesign.output.markup import text
+from yawdesign.output.markup import sentence
 from yawdesign.output.mode_tables import followed_tables, modes_tables
 from yawdesign.output.plan_view import caption
 from yawdesign.output.plots import plot
@@ -69,7 +69,7 @@ def hunting(review: "DesignReview") -> Section | None:
     under = under_words(review.modes.condition)
     told = f"{caption(mode)}; {under}. One cycle again and again, without decay or growth."
     moving = film(review.modes, mode.name, "film", f"The mode {mode.name} in motion, seen from above", told)
-    body = f'<figure class="film">{moving}<figcaption>{text(told)}</figcaption></figure>'
+    body = f'<figure class="film">{moving}<figcaption>{sentence(told)}</figcaption></figure>'
     return Section("hunting", "Hunting mode", body)
 
 

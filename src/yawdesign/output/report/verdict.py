@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from yawdesign.damper.status import Status
 from yawdesign.output.condition_texts import condition_text
-from yawdesign.output.markup import text
+from yawdesign.output.markup import sentence
 from yawdesign.output.relaxation_tables import relaxation_tables
 from yawdesign.output.report.fragments import Section, paragraph, subheading, tables
 from yawdesign.output.tables import damping, facts, margin, speed, titled
@@ -28,7 +28,7 @@ def verdict(review: "DesignReview") -> Section:
     looks = {str(Status.OPTIMAL): GOOD, str(Status.UNVERIFIED_OPTIMUM): DOUBTFUL}
     sign, look = looks.get(str(optimum.status), BAD)
     sign = f'<span class="sign" aria-hidden="true">{sign}</span>'
-    line = f'<p class="verdict {look}">{sign} {text(_line(review))}</p>'
+    line = f'<p class="verdict {look}">{sign} {sentence(_line(review))}</p>'
     under = paragraph(f"This holds for {optimum.searched}.")
     message = paragraph(f"{optimum.status}: {optimum.message}.")
     scope = review.forward.scope
