@@ -32,8 +32,7 @@ def draw_critical_speeds(result: "CriticalSpeeds", ax: "Axes | None" = None) -> 
     ax = new_axes(ax)
     low, high = (to_unit(end, "km/h") for end in result.searched)
     _bands(result, ax, low, high)
-    condition = {name: value for name, value in result.worst_condition.items() if name != "speed"}
-    label = f"least decay rate, {condition_text(condition) or 'values as given'}"
+    label = f"least decay rate, {condition_of_curve(result)}"
     ax.plot(to_unit(1.0, "km/h") * np.array(result.speeds), result.decay_rates, label=literal(label), **CHOSEN_LINE)
     ax.axhline(0.0, color=LIMIT, linewidth=0.8)
     ax.set(xlim=(low, high), xlabel="running speed $v$ [km/h]", ylabel="least decay rate of all modes [1/s]")
@@ -47,6 +46,12 @@ def draw_critical_speeds(result: "CriticalSpeeds", ax: "Axes | None" = None) -> 
     ax.get_figure(root=True).draw_without_rendering()  # type: ignore[union-attr]  # lays out, labels find their places
     set_title(ax, title, result.conditions, pad=draw_labels(ax, marks, 3.0) + 5.0)
     return ax
+
+
+def condition_of_curve(result: "CriticalSpeeds") -> str:
+    """Return in words under which condition the decay rates over the speed are."""
+    condition = {name: value for name, value in result.worst_condition.items() if name != "speed"}
+    return condition_text(condition) or "values as given"
 
 
 def _speed(value: float) -> str:

@@ -4,6 +4,7 @@ from dataclasses import replace
 from math import degrees, isinf
 from typing import TYPE_CHECKING
 
+from yawdesign.output.critical_speed_plots import condition_of_curve
 from yawdesign.output.critical_speed_tables import critical_speed_tables
 from yawdesign.output.markup import sentence
 from yawdesign.output.mode_tables import followed_tables, modes_tables
@@ -43,7 +44,8 @@ def damping_over_speed(review: "DesignReview") -> Section | None:
     drawn.append(folded("The same as a table", tables(followed_tables(review.paths))))
     if review.critical_speed is not None:
         drawn.append(subheading("Critical speed"))
-        told = f"Least decay rate of all modes over the speed; {review.critical_speed.conditions}."
+        told = f"Least decay rate of all modes over the speed, {condition_of_curve(review.critical_speed)}."
+        told += f" Where it is stable: {review.critical_speed.conditions}."
         drawn.append(figure(plot(review.critical_speed), "critical-picture", "Critical speed", told))
         drawn.append(tables(critical_speed_tables(replace(review.critical_speed, scope=""))))
     return Section("damping", "Damping over speed", "\n".join(drawn))
