@@ -66,6 +66,18 @@ def test_an_optimum_and_a_front(layout_faults):
     assert layout_faults(yd.plot(yd.trade_off(problem, points=3))) == []
 
 
+@pytest.mark.parametrize("bounds", [("10 kN s/m", "60 kN s/m"), ("2 MN s/m", "8 MN s/m")])
+def test_a_design_as_written_outside_the_bounds_is_inside_the_picture(bounds, layout_faults):
+    low, high = bounds
+    ax = yd.plot(yd.optimise(TABLE1.replace(design=yd.Design(variables={"C_s": yd.Variable(min=low, max=high)}))))
+    assert layout_faults(ax) == []
+    left, right = ax.get_xlim()
+    (before,) = (line.get_xdata()[0] for line in ax.lines if line.get_marker() == "s")
+    assert left < before < right
+    assert not 0 < before < 100
+    assert "1 047 kN·s/m" in [text.get_text() for text in ax.texts]
+
+
 def test_a_choice(layout_faults):
     found = yd.choose(yd.load(Path(__file__).parents[2] / "problems" / "table1-catalogue.yaml"))
     assert layout_faults(yd.plot(found)) == []
