@@ -6,6 +6,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import yawdesign as yd
+from yawdesign.output.critical_speed_plots import condition_of_curve
 
 TABLE1 = yd.table1().replace(C_s="1046.77 kN s/m")
 PRINTED = yd.table1(equations="as-printed")
@@ -87,6 +88,16 @@ def test_a_choice(layout_faults):
 def test_critical_speeds(C_s, layout_faults):
     problem = TABLE1.replace(C_s=C_s, requirements={"critical_speed": "330 km/h"})
     assert layout_faults(yd.plot(yd.critical_speed(problem))) == []
+
+
+def test_the_curve_of_critical_speeds_is_told_with_its_own_condition():
+    found = yd.critical_speed(MANY)
+    shown = condition_of_curve(found)
+    assert shown.startswith(
+        f"lambda {found.worst_condition['lambda']:g}, creep x {found.worst_condition['creep_factor']:g}"
+    )
+    assert f"least decay rate, {shown}" in yd.plot(found).get_legend_handles_labels()[1]
+    assert condition_of_curve(yd.critical_speed(TABLE1)) == "values as given"
 
 
 def test_uncertainty(layout_faults):

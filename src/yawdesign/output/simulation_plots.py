@@ -35,10 +35,8 @@ DETAIL = 5.0  # how much of a long run is drawn in detail [s]
 PARTS = 150  # of a long run, of each of which the largest and the least value are drawn
 SIGNS_BESIDE = 48  # of a label beside a picture
 HEIGHT_OF_PANEL, HEIGHT_OF_REST = 1.4, 1.5  # of a picture with a panel for each speed [inch]
-FEW_LINES, LINE = (
-    8,
-    0.18,
-)  # of a legend below a picture of the usual height; each further one [inch]
+FEW_LINES = 8  # of a legend below a picture of the usual height
+LINE = 0.18  # by which each further one heightens the picture [inch]
 STARTS = {"stationary": "stationary motion", "rest": "rest", "offset": "a displacement"}
 
 
